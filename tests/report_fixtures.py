@@ -83,6 +83,6 @@ def studies(folder: Path, text: str) -> Path:
     """A file of stored studies with every kind of cell, and one study that failed."""
     study = {"name": "made-up", "title": "Mesh", "case": "κ/ν = 0.5", "conclusion": text, "failed": False,
              "reason": None, "date": "2026-01-02", "columns": {"element": "length", "lambda0": "λ₀", "note": "note"},
-             "rows": [{"element": 0.05, "lambda0": {"value": 0.98, "error": 0.002}, "note": None}]}  # fmt: skip
+             "rows": [{"element": 0.05, "lambda0": 0.98, "note": None}]}  # fmt: skip
     failed = study | {"name": "failing", "title": "Penalty", "rows": [], "failed": True, "reason": text}
     return write(folder / "studies.json", "studies", "a test", ["bent_beam.measure"], {}, {"studies": [study, failed]})

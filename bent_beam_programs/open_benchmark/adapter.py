@@ -6,6 +6,7 @@ An adapter is one program, ``adapter PROBLEM.toml RESULT RESOLUTION [ARGUMENTS]`
 
 from __future__ import annotations
 
+import ast
 import hashlib
 import os
 import re
@@ -13,8 +14,11 @@ import subprocess
 import sys
 import sysconfig
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
+from importlib.metadata import packages_distributions, version
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -22,11 +26,8 @@ from platformdirs import user_cache_path
 
 from bent_beam.errors import InputError, nearest
 from bent_beam.versions import versions
-from bent_beam_programs.open_benchmark.imports import behind
 from bent_beam_programs.open_benchmark.problem import Problem
-from comparison.store import source_digest
-
-__all__ = ["ADAPTERS", "GIVEN", "RESOLUTIONS", "Adapter", "chosen_adapters", "install", "shipped_adapters"]
+from comparison.store import PACKAGES, digest_of_files, installed, source_digest
 
 ADAPTERS = Path(__file__).parent / "adapters"
 RESOLUTIONS = ("coarse", "medium", "fine")
@@ -178,3 +179,53 @@ def install(adapter: Adapter) -> str:
             last = " ".join((done.stderr.strip() or "no message").splitlines()[-1].split())
             raise InputError(f"install: {name}: {last}")
     return f"{name}: {', '.join(adapter.install)} in {folder}"
+
+
+# --- what the code of an adapter depends on -------------------------------------------------------------------------
+
+CODE = (".py", ".so", ".pyd")
+
+
+@cache
+def _distributions() -> Mapping[str, list[str]]:
+    """Which distributions a package comes from; to ask takes a second where many are installed."""
+    return packages_distributions()
+
+
+def behind(files: Iterable[Path], folder: Path) -> list[str]:
+    """What Python ``files`` import, and what that imports in turn: the digest of each module or package in ``folder``
+    or elsewhere on the path, of an installed one its version. What is imported by a computed name is not seen."""
+    waiting, seen, found = list(files), {"__main__", *PACKAGES, *sys.stdlib_module_names}, set()
+    places = installed()
+    while waiting:
+        for name in _imported_by(waiting.pop()) - seen:
+            seen.add(name)
+            origin = next((f for f in (folder / f"{name}.py", folder / name / "__init__.py") if f.is_file()), None)
+            if origin is None:
+                spec = find_spec(name)
+                origin = None if spec is None or not spec.has_location else Path(str(spec.origin))
+            if origin is None:
+                continue
+            if any(origin.resolve().is_relative_to(place) for place in places):
+                found |= {f"{one} {version(one)}" for one in _distributions().get(name, ())}
+                continue
+            package = origin.parent.rglob("*") if origin.stem == "__init__" else ()
+            mine = [file for file in package if file.suffix in CODE] or [origin]
+            found.add(f"{name} {digest_of_files(mine, origin.parent)}")
+            waiting += mine
+    return sorted(found)
+
+
+def _imported_by(file: Path) -> set[str]:
+    """Top-level names of the modules that a file imports."""
+    try:
+        tree = ast.walk(ast.parse(file.read_bytes())) if file.suffix == ".py" else ()
+    except (SyntaxError, ValueError):
+        return set()
+    names: set[str] = set()
+    for node in tree:
+        if isinstance(node, ast.Import):
+            names |= {one.name.partition(".")[0] for one in node.names}
+        elif isinstance(node, ast.ImportFrom) and not node.level:
+            names.add(str(node.module).partition(".")[0])
+    return names

@@ -10,8 +10,6 @@ import typer
 from bent_beam_programs.open_benchmark.problem_command import problem_ids
 from comparison.command_line.options import Json, Quiet, complete, emit, progress
 
-__all__ = ["benchmark"]
-
 
 def solver_names(incomplete: str) -> list[str]:
     """Completion of a code's name: the shipped adapters."""

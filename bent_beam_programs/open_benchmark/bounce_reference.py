@@ -17,8 +17,6 @@ from bent_beam_programs.open_benchmark.problem import problem, shipped_ids
 from bent_beam_programs.open_benchmark.references import BOUNCES, stored
 from hermite_fe import HermiteFE
 
-__all__ = ["agrees"]
-
 ELEMENTS = 600  # of a half beam
 PACKAGES = ("hermite_fe", "bent_beam")
 

@@ -36,8 +36,6 @@ from bent_beam_programs.open_benchmark.result import Result, ResultError
 from bent_beam_programs.open_benchmark.running import Limits, Run, run_adapter
 from bent_beam_programs.open_benchmark.score import resolution_ignored, score
 
-__all__ = ["STANDARD", "Row", "campaign", "declared_rows", "drawn", "drawn_once"]
-
 #: Default problems of ``bentbeam benchmark``: 0.5 ranks codes, 0.1 is the stress test of the first
 #: instants, then one point, and the three regimes of loads (pressed on, lifted off, under tension).
 STANDARD = (

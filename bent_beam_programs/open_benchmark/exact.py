@@ -21,8 +21,6 @@ from theory.elastic_wall import peak_force
 from theory.ladder import BouncingBall, DroppedBar, FlyingBar, ReleasedBar, StringOnObstacle
 from theory.stopped_beam import StoppedBeam
 
-__all__ = ["SAMPLE", "computed", "whole_impact"]
-
 PEAK_TIME = 0.01  # to which the theory finds when the force of an elastic wall is largest
 SAMPLE = 100  # elements of half a beam, where a whole impact is confirmed or has no stored reference
 NUMBERS = ("restitution", "last_contact", "midspan_moment")

@@ -10,8 +10,6 @@ from bent_beam.measure.moments import one_side
 from bent_beam_programs.open_benchmark.problem import Problem, first_order_problem
 from bent_beam_programs.open_benchmark.result import Array, Result, ResultError
 
-__all__ = ["result_from_history"]
-
 MOST_SNAPSHOTS = 400
 #: Fields of an impact that the exact solution of the infinite beam does not know, and why.
 UNKNOWN = {

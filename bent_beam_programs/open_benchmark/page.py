@@ -26,8 +26,6 @@ from bent_beam_programs.open_benchmark.campaign import Row
 from bent_beam_programs.open_benchmark.judgement import LOADED, Score
 from bent_beam_programs.open_benchmark.problem import LADDER, Problem, problem
 
-__all__ = ["document", "errors_table", "properties", "write_page"]
-
 MEASURES = {"lambda0": "λ₀", "r0": "r₀", "lambda1": "λ₁", "r1": "r₁", "restitution": "e", "impulse_error": "J(t)"}
 MEASURES |= {"peak_force": "the largest force", "peak_time": "its time"}
 MARKS = "osD^vP*<>hp8d"

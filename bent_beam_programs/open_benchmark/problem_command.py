@@ -10,8 +10,6 @@ import typer
 
 from comparison.command_line.options import Overwrite, check_out, complete
 
-__all__ = ["problem"]
-
 
 def problem_ids(incomplete: str) -> list[str]:
     """Completion of a problem's id: the shipped problems."""

@@ -23,8 +23,6 @@ from scipy.interpolate import PPoly
 from bent_beam.stored import read
 from bent_beam_programs.open_benchmark.problem import Problem
 
-__all__ = ["BOUNCES", "REFERENCES", "SCHEMA", "Reference", "reference", "stored"]
-
 BOUNCES = Path(__file__).with_name("bounce_reference.json")
 REFERENCES = Path(__file__).with_name("references.json")
 SCHEMA = "beam-impact-references/2"

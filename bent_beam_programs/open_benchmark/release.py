@@ -16,8 +16,6 @@ from bent_beam_programs.open_benchmark.problem import LADDER, PROBLEMS, document
 from bent_beam_programs.open_benchmark.problem import SCHEMA as PROBLEM_SCHEMA
 from bent_beam_programs.open_benchmark.references import REFERENCES, SCHEMA
 
-__all__ = ["SHIPPED"]
-
 SHIPPED = (
     *(f"leading-{kappa:g}" for kappa in (0.1, 0.25, 0.5, 0.8)),
     *(f"first-0.5-{loads}" for loads in ("-0.5-0-0-1", "-1--1-0", "1-1-1", "4-0-0")),

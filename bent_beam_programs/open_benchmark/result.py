@@ -21,8 +21,6 @@ from numpy.typing import NDArray
 from bent_beam.checks import shortened
 from bent_beam_programs.open_benchmark.problem import Problem, problem
 
-__all__ = ["OUTCOMES", "Result", "ResultError", "result_from_fields"]
-
 Array = NDArray[np.float64]
 
 OUTCOMES = (
@@ -85,15 +83,6 @@ class Result:
     def stated(self) -> str:
         """The outcome with its detail in brackets, as the file says it."""
         return f"{self.outcome}({self.detail})" if self.detail else self.outcome
-
-    def model(self, name: str) -> float | None:
-        """A finite number that the adapter declares of its model, in l* and t*; ``None`` when it is not reported."""
-        model = self.metadata.get("model")
-        for table in [model, self.metadata] if isinstance(model, Mapping) else [self.metadata]:
-            value = table.get(name)
-            if isinstance(value, int | float) and not isinstance(value, bool) and -MOST <= value <= MOST:
-                return float(value)
-        return None
 
     def in_window(self, times: Array) -> NDArray[np.bool_]:
         """Which of ``times`` lie in the fit window."""

@@ -30,8 +30,6 @@ try:
 except ImportError:  # Windows has none
     resource = None  # type: ignore[assignment]
 
-__all__ = ["Limits", "Run", "run_adapter"]
-
 GRACE = 0.1  # s between looks at the clock and the folder
 MOST_FILES = 10_000
 

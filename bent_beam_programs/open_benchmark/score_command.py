@@ -13,8 +13,6 @@ from comparison.command_line.options import Json, emit, printable
 if TYPE_CHECKING:
     from bent_beam_programs.open_benchmark.judgement import Score
 
-__all__ = ["score"]
-
 
 def score(
     results: Annotated[

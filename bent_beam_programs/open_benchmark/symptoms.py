@@ -2,7 +2,7 @@
 
 Each reading needs fields that a file may lack: then it cannot be told, and is said so. A figure beyond its limit is a
 symptom. Symptoms stand in the order in which they explain one another: what breaks a law of mechanics before what may
-follow from it. :mod:`.causes` names the cause of the first where it has one alone.
+follow from it. :mod:`.score` names the cause of the first where it has one alone.
 
 At leading order the wall pushes at the front alone, so each length of wall that the front has passed has got the same
 impulse; ahead, where no wave has come, the beam moves freely; and ∫μ(V₀ − v)dx = J, ∫μ(gap − free gap)dx = ∫J dt.
@@ -18,8 +18,6 @@ import numpy as np
 from bent_beam_programs.open_benchmark.judgement import PART, Symptom
 from bent_beam_programs.open_benchmark.problem import Problem
 from bent_beam_programs.open_benchmark.result import Array, Result
-
-__all__ = ["last_push", "readings"]
 
 NODES, GAPS = "node_x and node_impulse", "x, snap_tau and snap_gap"
 AHEAD = 5.0  # √τ short of the far end, or 3 ahead of the front: hardly a wave has come there
@@ -54,8 +52,8 @@ def last_push(result: Result, when: float, x: Array, gap: Array) -> tuple[Array,
     return push, np.interp(places, x, gap), float(when - result.tau[before])
 
 
-def _one_side(result: Result) -> tuple[Array, Array] | None:
-    """Places x ≥ 0 of the contact points and their impulses at the end, those of one side."""
+def _one_side(result: Result) -> tuple[Array, Array, float] | None:
+    """Of one side: places x ≥ 0 of the contact points, their impulses at the end, and how far an even one would go."""
     if result.node_x is None or result.node_impulse is None:
         return None
     keep = np.flatnonzero(result.node_x >= -1e-9)
@@ -63,7 +61,9 @@ def _one_side(result: Result) -> tuple[Array, Array] | None:
     x, impulse = np.abs(result.node_x[keep]), result.node_impulse[-1, keep].copy()
     if result.node_x.min() < -1e-9 and x[0] < 1e-9:
         impulse[0] /= 2.0
-    return (x, impulse) if x.size > 1 and impulse.sum() > 0.0 and np.all(np.diff(x) > 0.0) else None
+    if x.size < 2 or impulse.sum() <= 0.0 or np.any(np.diff(x) <= 0.0):
+        return None
+    return x, impulse, 2.0 * float(x @ impulse) / float(impulse.sum())
 
 
 # --- what no wall, no beam and no sum may do -------------------------------------------------------------------------
@@ -215,8 +215,7 @@ def _noise_in_space(result: Result, _: float = 0.0) -> Seen:
     side = _one_side(result)
     if side is None:
         return None
-    x, impulse = side
-    zone = 2.0 * float(x @ impulse) / float(impulse.sum())
+    x, impulse, zone = side
     density = impulse[1:-1] / ((x[2:] - x[:-2]) / 2.0)
     inner = np.flatnonzero((x[1:-1] > 0.15 * zone) & (x[1:-1] < 0.85 * zone))
     if inner.size < 3:
@@ -231,13 +230,12 @@ def _distribution(result: Result, _: float = 0.0) -> Seen:
     side = _one_side(result)
     if side is None:
         return None
-    x, impulse = side
+    x, impulse, zone = side
     edges, width = (x[1:] + x[:-1]) / 2.0, np.diff(np.append(0.0, (x[1:] + x[:-1]) / 2.0))
     up_to = np.cumsum(impulse)[:-1] / impulse.sum()
     if result.problem.kind == "point":
         beyond = edges > 0.25 * np.sqrt(result.tau[-1])
         return (1.0 - float(up_to[beyond][0]), "away from the middle") if beyond.any() else None
-    zone = 2.0 * float(x @ impulse) / float(impulse.sum())
     near = edges < 1.3 * zone
     if not near.any():
         return 1.0, "all in one point"

@@ -27,8 +27,6 @@ from theory import contact_parameters
 from theory.second_order import second_order
 from theory.similarity import peak_moment, wave_amplitude
 
-__all__ = ["coefficients"]
-
 Array = NDArray[np.float64]
 Function = Callable[[Array], Array]
 MIDDLE = 3.0  # b where u = 0

@@ -9,8 +9,6 @@ import typer
 
 from comparison.command_line.options import Overwrite, check_out, printable
 
-__all__ = ["predictor"]
-
 
 def predictor(
     out: Annotated[Path, typer.Option(help="The page to write.")] = Path("predictor.html"),

@@ -12,8 +12,6 @@ from comparison.readable import BEAMS
 from theory import contact_parameters, shear, validity, wall_prediction
 from theory.second_order import second_order
 
-__all__ = ["page", "write_page"]
-
 TEMPLATES = Path(__file__).parent / "templates"
 MODEL = ("theory.js", "point.js", "limits.js", "beam.js", "instants.js", "case.js")
 SIMULATION = ("elements.js", "contact.js", "solver.js", "answer.js", "worker.js")  # of the workers

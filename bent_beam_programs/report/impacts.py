@@ -18,6 +18,7 @@ from bent_beam.impact import Impact
 from bent_beam.measure.force_map import force_map
 from bent_beam.measure.moments import moments
 from bent_beam.method import Method, chosen_for, settings_of
+from bent_beam_programs.report.rows import percent, true_minus
 from comparison.runs import kept
 from comparison.store import RunStore
 from comparison.workers import run_all
@@ -240,3 +241,33 @@ def energies(history: ImpactHistory) -> dict[str, Array]:
 def _short(values: Array) -> list[float]:
     """Four significant digits: enough to look at."""
     return [float(f"{v:.4g}") for v in np.asarray(values, float)]
+
+
+def acceleration_rows(impacts: Sequence[ShownImpact]) -> list[dict[str, str]]:
+    """What an acceleration does to a method's contact, at the end of the impact, ready to be shown: a row for each run
+    with acceleration whose method ran without it too.
+
+    zone, reaction : change of contact length and end reaction against the same method's run without acceleration;
+    uniform, theory : reaction per length in the zone over μV₀/t*; gap : the largest inside the zone, over V₀t.
+    """
+    plain = {i.label: i for i in impacts if i.shown.epsilon == 0.0}
+    rows = []
+    for impact in impacts:
+        if impact.shown.epsilon == 0.0 or impact.label not in plain:
+            continue
+        found, base = impact.data, plain[impact.label].data
+        zone, reaction = (
+            true_minus(f"{100 * (found[name][-1] / base[name][-1] - 1):+.0f} %") for name in ("front", "reaction")
+        )
+        rows.append(
+            {
+                "impact": f"{impact.shown.title}, ε = {impact.shown.epsilon:g}",
+                "label": impact.label,
+                "zone": zone,
+                "reaction": reaction,
+                "uniform": true_minus(f"{found['pressure'][-1]:.2f}"),
+                "theory": f"{impact.shown.pressure:.2f}",
+                "gap": percent(max(found["lift"])),
+            }
+        )
+    return rows

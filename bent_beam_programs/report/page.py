@@ -2,8 +2,8 @@
 
 The page tells the story first: the problem, the answer, how well each path has it, the verdicts on the thesis, what to
 believe; then numbers and studies. ``write_report`` computes the rows (:mod:`.rows`), the drill pipe (:mod:`.whole`) and
-a few impacts to look at (:mod:`.impacts`), takes the parameter studies, the sheets of work and precision and the map of
-whole impacts as they are stored, and puts all of it into ``templates/report.html.j2``. Whatever fails is named on the
+a few impacts to look at (:mod:`.impacts`), takes the parameter studies, the printed numbers and the sheets of work and
+precision as they are stored, and puts all of it into ``templates/report.html.j2``. Whatever fails is named on the
 page, and the page is written all the same.
 """
 
@@ -29,11 +29,10 @@ from bent_beam.errors import ANY_FAILURE
 from bent_beam.files import write_atomically
 from bent_beam.method import Method, refined
 from bent_beam.versions import processor, versions
-from bent_beam_programs.report.impacts import END, ENERGIES, SHOWN, ShownImpact, show_all, theory_of
-from bent_beam_programs.report.rows import first_order_rows, labels, leading_rows
+from bent_beam_programs.report.impacts import END, ENERGIES, SHOWN, ShownImpact, acceleration_rows, show_all, theory_of
+from bent_beam_programs.report.rows import first_order_rows, headline, labels, leading_rows, percent, summary
 from bent_beam_programs.report.stills import draw_acceleration, draw_maps, grouped
 from bent_beam_programs.report.studies import stored_numbers, stored_studies
-from bent_beam_programs.report.summary import acceleration_rows, headline, percent, summary
 from bent_beam_programs.report.whole import COLUMNS, pipe_prediction
 from bent_beam_programs.report.work import stored_measurements
 from comparison.figures.matching import write_match
@@ -162,10 +161,7 @@ def render(content: Content) -> str:
         caption_of=lambda name, title: f"{name.replace('fig-', 'Fig. ').replace('extra-', 'Its ')}: {title}",
         facts=facts(content),
         settings=settings(content),
-        data={
-            "energies": ENERGIES,
-            "impacts": [impact_data(runs) for runs in groups.values()],
-        },
+        data={"energies": ENERGIES, "impacts": [impact_data(runs) for runs in groups.values()]},
         script=inline_script((TEMPLATES / "report.js").read_text(encoding="utf-8")),
         style=Markup((TEMPLATES / "report.css").read_text(encoding="utf-8")),
     )
@@ -188,15 +184,10 @@ def picture(file: Path) -> str:
 
 def impact_data(runs: Sequence[ShownImpact]) -> dict[str, Any]:
     """An impact as the page's script reads it: theory and every method on one timeline."""
-    shown = runs[0].shown
     colours = marks(run.label for run in runs)
     drawn = [{name: values for name, values in run.data.items() if name != "map"} for run in runs]  # it is a still
     return {
-        "name": shown.name,
-        "title": shown.title,
-        "kappa": shown.kappa_over_nu,
-        "epsilon": shown.epsilon,
-        "theory": theory_of(shown),
+        "theory": theory_of(runs[0].shown),
         "methods": [{"label": r.label, "colour": colours[r.label]["color"]} | d for r, d in zip(runs, drawn)],
     }
 

@@ -1,10 +1,14 @@
-"""What the report asks of every method, how good an answer has to be, and the rows as cells of its tables."""
+"""What the report asks of every method, how good an answer has to be, the rows as cells of its tables, and many of them
+in a few numbers.
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from statistics import median
+from typing import Any
 
 from bent_beam.measure.numbers import Number
 from bent_beam.method import Method
@@ -16,6 +20,7 @@ MIDDLE = 0.5
 ALONG = (0.25, MIDDLE, 0.8)  # κ/ν of first order
 FIRST: tuple[First, ...] = ((4, 0, 0, 0), (-1, -1, 0, 0))  # a pressed zone and a lifting one
 REFINES = (0.5, 1.0)
+THIN = 0.02  # κ/ν; below it the front is so thin that it is a case of its own
 
 
 def true_minus(text: str) -> str:
@@ -139,3 +144,60 @@ def leading_rows(rows: Iterable[MatchRow]) -> list[TableRow]:
 def first_order_rows(rows: Iterable[MatchRow]) -> list[TableRow]:
     """Rows of first order at the methods' own resolution, by κ/ν, (α, ψ, χ, N) and method."""
     return _at_own_resolution(rows, first=True)
+
+
+def percent(value: float) -> str:
+    """A share as per cent, two significant digits, rounded up: never better than it is."""
+    size = max(100.0 * abs(value), 1e-4)
+    digits = max(0, 1 - math.floor(math.log10(size)))
+    step = 10.0**-digits
+    return f"{math.ceil(size / step - 1e-9) * step:.{digits}f} %"
+
+
+def bands(leading: Sequence[TableRow]) -> list[tuple[str, list[TableRow]]]:
+    """Rows of leading order by range of κ/ν, named."""
+    named = []
+    for thin in (False, True):
+        if rows := [r for r in leading if (r.row.kappa_over_nu < THIN) == thin]:
+            ends = dict.fromkeys(f(rows, key=lambda r: r.row.kappa_over_nu).ratio_text for f in (min, max))
+            named.append((f"leading order, κ/ν = {' to '.join(ends)}", rows))
+    return named
+
+
+def summary(leading: Sequence[TableRow], first: Sequence[TableRow]) -> list[dict[str, Any]]:
+    """A row for each order, range of κ/ν and method that has a number.
+
+    rows, numbers : how many; within, covered : numbers inside the tolerance, and with theory inside their error bar;
+    largest, median : of their |error|, relative; seconds : the median row's.
+    """
+    found = []
+    for order, rows in (*bands(leading), ("first order", first)):
+        for label in labels(r.row for r in rows):
+            mine = [r for r in rows if r.row.label == label]
+            cells = [c for r in mine for c in r.cells]
+            errors = [abs(c.error) for c in cells]
+            seconds = [r.row.seconds for r in mine if r.row.seconds is not None]
+            if cells:
+                found.append(
+                    {
+                        "order": order,
+                        "label": label,
+                        "rows": len(mine),
+                        "numbers": len(cells),
+                        "largest": max(errors),
+                        "median": median(errors),
+                        "within": sum(abs(c.error) <= c.tolerance for c in cells),
+                        "covered": sum(bool(c.number.covered) for c in cells),
+                        "seconds": median(seconds) if seconds else None,
+                    }
+                )
+    return found
+
+
+def headline(leading: Sequence[TableRow], first: Sequence[TableRow], failures: int) -> str:
+    """The largest difference from theory of each method at each order, and how many rows failed."""
+    orders: dict[str, list[str]] = {}
+    for r in summary(leading, first):
+        orders.setdefault(r["order"], []).append(f"{r['label']} {percent(r['largest'])}")
+    found = "; ".join(f"{order} {', '.join(each)}" for order, each in orders.items())
+    return f"Largest difference from theory: {found or 'no numbers'}. Rows failed: {failures}."

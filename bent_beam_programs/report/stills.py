@@ -21,34 +21,25 @@ def grouped(impacts: Sequence[ShownImpact]) -> dict[Shown, list[ShownImpact]]:
 
 
 def draw_maps(impacts: Sequence[ShownImpact], out: Path) -> list[Path]:
-    """Reaction per length over place and time: an impact a column, a method a row."""
+    """Reaction per length over place and time: an impact a column, a method a row. There is at least one impact."""
     groups = grouped(impacts)
     labels = list(dict.fromkeys(i.label for i in impacts))
     with style.figure(
         len(labels), len(groups), width=style.PAGE, height=1.9 * len(labels) + 0.4, sharey=True, squeeze=False
     ) as (fig, axes):
-        mesh = None
         for column, (shown, runs) in enumerate(groups.items()):
             axes[0][column].set_title(shown.title, fontsize=6.5)
             axes[-1][column].set_xlabel(r"$x/l_*$  (1)")
             for run in runs:
-                axis = axes[labels.index(run.label)][column]
-                field = run.data["map"]
-                force = np.clip(np.array(field["force"]), 1e-2, None)
-                x = np.array(field["x"])
+                axis, field = axes[labels.index(run.label)][column], run.data["map"]
+                x, force = np.array(field["x"]), np.clip(np.array(field["force"]), 1e-2, None)
                 mesh = axis.pcolormesh(
-                    np.concatenate([-x[::-1], x]),
-                    np.array(field["root_time"]),
-                    np.concatenate([force[:, ::-1], force], axis=1),
-                    cmap="viridis",
-                    norm=LogNorm(1e-2, 1e3),
-                    shading="nearest",
-                    rasterized=True,
-                )
+                    np.concatenate([-x[::-1], x]), np.array(field["root_time"]), np.hstack([force[:, ::-1], force]),
+                    cmap="viridis", norm=LogNorm(1e-2, 1e3), shading="nearest", rasterized=True,
+                )  # fmt: skip
                 axis.grid(False)
-        for row, label in enumerate(labels):
-            axes[row][0].set_ylabel(f"{label}\n" + r"$\sqrt{\tau}$  (1)")
-        assert mesh is not None  # there is an impact, or nobody would draw
+        for row, label in zip(axes, labels):
+            row[0].set_ylabel(f"{label}\n" + r"$\sqrt{\tau}$  (1)")
         fig.colorbar(mesh, ax=axes, label=r"reaction per length / ($\mu V_0/t_*$)")
         return style.save(fig, out, "reaction-map")
 

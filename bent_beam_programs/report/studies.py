@@ -4,7 +4,6 @@ with pictures. They take minutes and are measured elsewhere.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -31,21 +30,13 @@ def stored_studies(file: Path = STUDIES) -> list[dict[str, Any]]:
         columns = {key: heading for key, heading in study["columns"].items() if key not in LEFT_OUT}
         shown = {
             "headings": list(columns.values()),
-            "cells": [[_text(row.get(key)) for key in columns] for row in study["rows"]],
+            "cells": [[readable(row.get(key), 3) for key in columns] for row in study["rows"]],
             "reason": (study.get("reason") or "no reason given") if study["failed"] else "",
             "stale": stale,
             "picture": file.with_name(f"{study['name']}.png"),
         }
         found.append({"says": "", **study, **shown})
     return found
-
-
-def _text(value: Any) -> str:
-    """A cell: a number in three digits, with its error bar where it has one."""
-    if isinstance(value, Mapping):
-        bar = value.get("error")
-        return readable(value.get("value"), 3) + ("" if bar is None else f" ± {readable(bar, 1)}")
-    return readable(value, 3)
 
 
 def stored_numbers(file: Path = NUMBERS) -> dict[str, Any] | None:

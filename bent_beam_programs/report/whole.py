@@ -16,8 +16,6 @@ from comparison.predicting import predict_case
 from comparison.readable import number_from
 from comparison.store import RunStore
 
-__all__ = ["COLUMNS", "pipe_prediction"]
-
 PIPE = EXAMPLES / "drill_pipe.toml"
 TIMES = (0.001, 0.005, 0.010)  # s
 COLUMNS = {

@@ -9,9 +9,10 @@ from __future__ import annotations
 import csv
 import io
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -183,6 +184,16 @@ def item(name: str, *, beside: str = "", **parts: str) -> Callable[[Draw], Draw]
         return draw
 
     return register
+
+
+def items(module: str, draw: Callable[..., None], rows: Iterable[tuple[Any, ...]]) -> None:
+    """Register figures that one function draws: a row is id, title, caption, and what ``draw`` gets after the sheet."""
+    for name, title, caption, *given in rows:
+        ITEMS[name] = Item(name, title, caption, module, partial(_draw_with, draw, given))
+
+
+def _draw_with(draw: Callable[..., None], given: Sequence[Any], sheet: Sheet) -> None:
+    draw(sheet, *given)
 
 
 def order(name: str) -> tuple[int, int, int, str]:

@@ -14,7 +14,7 @@ from PIL import Image
 
 from bent_beam import stored
 from bent_beam_programs.thesis import stored_studies
-from bent_beam_programs.thesis.gallery.runs import case, thesis, thesis_history
+from bent_beam_programs.thesis.gallery.runs import case, thesis
 from bent_beam_programs.thesis.studies.outcome import MEASURES
 
 
@@ -24,7 +24,7 @@ def test_report_and_gallery_show_one_result() -> None:
     (study,) = (s for s in json.loads(stored_studies.FILE.read_text())["studies"] if s["name"] == "damping")
     (row,) = (r for r in study["rows"] if r["label"] == "ρ∞ = 0.8")
     found = thesis("", 1.0 / 40.0, 0.01).measures
-    assert thesis_history(1.0 / 40.0, 0.01).steps == row["steps"]
+    assert thesis("", 1.0 / 40.0, 0.01).history.steps == row["steps"]
     for name in ("contact_length_error", "reaction_error", "lift", "lost_impact"):
         assert found[name] == pytest.approx(row[name], rel=1e-6), MEASURES[name]
 

@@ -30,8 +30,6 @@ from comparison.readable import readable
 from comparison.store import write_atomically
 from comparison.workers import run_all
 
-__all__ = ["ITEMS", "Item", "draw_all", "listing"]
-
 PACKAGES = (
     *("bent_beam", "theory", "hermite_fe", "self_similar_fe", "exudyn_models", "comparison"),
     "bent_beam_programs.thesis",

@@ -55,8 +55,7 @@ def impact_frames(history: ImpactHistory, count: int = FRAMES) -> list[Frame]:
 def _frame(history: ImpactHistory, outcome: Outcome, time: float, step: float, x: Array) -> Frame:
     k = nearest(history.time, time)
     p, t = history.impact, float(history.time[k])
-    free = p.velocity * t + 0.5 * p.acceleration * t**2 + p.fourth_derivative * x**4 / 24.0
-    free = free - 0.5 * (p.relative_curvature - p.curvature_rate * t) * x**2
+    free = p.free_motion(p.relative_curvature)(x, t)
     places, gap = history.positions(k), history.array("gap", k)
     half = places >= 0.0
     known = np.abs(x) <= places[half][-1]

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from bent_beam_programs.thesis.gallery.drawing import THEORY, guide, plain_line
-from bent_beam_programs.thesis.sheet import Sheet, item
+from bent_beam_programs.thesis.gallery.drawing import guide, plain_line
+from bent_beam_programs.thesis.sheet import Sheet, item, items
 from comparison.figures import style
 from comparison.readable import readable
 from theory import contact_parameters, kernel, phi, worked_examples
@@ -34,7 +34,7 @@ def duffing(sheet: Sheet) -> None:
     exact = worked_examples.duffing_numerical(times, DUFFING)
     with sheet.figure(width=style.PAGE, height=2.3) as (_, axis):
         axis.set(xlabel="$t$  (1)", ylabel="$y$  (1)", xlim=(0, 60))
-        sheet.line(axis, times, exact, series="numerical", **THEORY)
+        sheet.line(axis, times, exact, series="numerical", **style.THEORY)
         for name, expansion, line in (
             ("regular expansion", worked_examples.duffing_regular, plain_line("vermilion", "--")),
             ("multiple scales", worked_examples.duffing_multiple_scales, plain_line("blue", "-.", 0.9)),
@@ -69,7 +69,7 @@ def kernel_shape(sheet: Sheet) -> None:
     """
     beta = np.linspace(-10.0, 10.0, 801)
     label = r"$\beta = \xi/\sqrt{\tau}$  (1)"
-    axis = plot(sheet, beta, {"H": kernel.H(beta)}, (THEORY,), xlabel=label, ylabel=r"$H$  (1)", xlim=(-10, 10))
+    axis = plot(sheet, beta, {"H": kernel.H(beta)}, (style.THEORY,), xlabel=label, ylabel=r"$H$  (1)", xlim=(-10, 10))
     guide(axis, y=0.0)
 
 
@@ -110,31 +110,17 @@ def functions(sheet: Sheet, shown: Mapping[str, str], largest: float = 6.0) -> N
     plot(sheet, lam, curves, IN_TURN, **OF_LAMBDA, xlim=(0, largest))
 
 
-@item("fig-2.10")
-def functions_of_deflection(sheet: Sheet) -> None:
-    """φ_p, φ_α, φ_λ
-
-    Functions φ_p (2.7.17), φ_α and φ_λ (2.7.23): deflection at the middle by the uniform reaction, r₁ and λ₁.
-    """
-    functions(sheet, {"p": "p", "alpha": r"\alpha", "lambda": r"\lambda"})
-
-
-@item("fig-2.11")
-def functions_of_curvature(sheet: Sheet) -> None:
-    """φ_ṗ, φ_κ̇, φ_λ̇
-
-    Functions φ_ṗ (2.7.34), φ_κ̇ and φ_λ̇ (2.7.38): curvature at the middle by the uniform reaction, r₁ and λ₁.
-    """
-    functions(sheet, {"pdot": r"\dot{p}", "kappadot": r"\dot{\kappa}", "lambdadot": r"\dot{\lambda}"})
-
-
-@item("fig-2.15")
-def functions_at_the_contact_point(sheet: Sheet) -> None:
-    """φ_r, φ_q, φ_s, φ_t
-
-    Functions φ_r, φ_q (2.7.53) and φ_s, φ_t (2.7.68): deflection and slope at ξ = λ_c by λ₁ and r₁.
-    """
-    functions(sheet, {"r": "r", "q": "q", "s": "s", "t": "t"}, 8.0)
+items(__name__, functions, (
+    ("fig-2.10", "φ_p, φ_α, φ_λ",
+     "Functions φ_p (2.7.17), φ_α and φ_λ (2.7.23): deflection at the middle by the uniform reaction, r₁ and λ₁.",
+     {"p": "p", "alpha": r"\alpha", "lambda": r"\lambda"}),
+    ("fig-2.11", "φ_ṗ, φ_κ̇, φ_λ̇",
+     "Functions φ_ṗ (2.7.34), φ_κ̇ and φ_λ̇ (2.7.38): curvature at the middle by the uniform reaction, r₁ and λ₁.",
+     {"pdot": r"\dot{p}", "kappadot": r"\dot{\kappa}", "lambdadot": r"\dot{\lambda}"}),
+    ("fig-2.15", "φ_r, φ_q, φ_s, φ_t",
+     "Functions φ_r, φ_q (2.7.53) and φ_s, φ_t (2.7.68): deflection and slope at ξ = λ_c by λ₁ and r₁.",
+     {"r": "r", "q": "q", "s": "s", "t": "t"}, 8.0),
+))  # fmt: skip
 
 
 def solution(
@@ -163,43 +149,21 @@ def text_of(load: Load) -> str:
 
 
 SETS = "The sets (α, ψ, χ) of the thesis's legend are not in its text; these include all that its text names"
-
-
-@item("fig-2.12a", sets=SETS)
-def reaction_pushed(sheet: Sheet) -> None:
-    """r₁ for α + ψ > 0
-
-    First-order reaction r₁ over κ/ν, continuous contact (2.7.40); 2α in the discrete regime. {sets}. r₁ of (0, 2, 0)
-    is negative, as the thesis notes.
-    """
-    solution(sheet, "r1", PUSHED, (-6.0, 14.0), 0.5, (0.0, 2.0, 0.0))
-
-
-@item("fig-2.12b", sets=SETS)
-def length_pushed(sheet: Sheet) -> None:
-    """λ₁ for α + ψ > 0
-
-    First-order contact length λ₁ over κ/ν, continuous contact (2.7.40); 0 in the discrete regime. {sets} (it prints
-    5.665 for (4, 0, 0) at κ/ν = 0.5).
-    """
-    solution(sheet, "lambda1", PUSHED, (-1.0, 12.0), 0.5, (4.0, 0.0, 0.0))
-
-
-@item("fig-2.16a", sets=SETS)
-def reaction_pulled(sheet: Sheet) -> None:
-    """r₁ for α + ψ < 0
-
-    First-order reaction r₁ over κ/ν, detached contact (2.7.71); 2α in the discrete regime. {sets}. r₁ of (−1, −1, 1)
-    is positive at κ/ν = 0.3, as the thesis notes.
-    """
-    solution(sheet, "r1", PULLED, (-24.0, 12.0), 0.3, (-1.0, -1.0, 1.0))
-
-
-@item("fig-2.16b", sets=SETS)
-def length_pulled(sheet: Sheet) -> None:
-    """λ₁ for α + ψ < 0
-
-    First-order contact length λ₁ over κ/ν, detached contact (2.7.71); 0 in the discrete regime. {sets} (it prints
-    −1.7729 for (−1, −1, 0) at κ/ν = 0.5).
-    """
-    solution(sheet, "lambda1", PULLED, (-10.0, 8.0), 0.5, (-1.0, -1.0, 0.0))
+items(__name__, solution, (
+    ("fig-2.12a", "r₁ for α + ψ > 0",
+     "First-order reaction r₁ over κ/ν, continuous contact (2.7.40); 2α in the discrete regime. "
+     f"{SETS}. r₁ of (0, 2, 0) is negative, as the thesis notes.",
+     "r1", PUSHED, (-6.0, 14.0), 0.5, (0.0, 2.0, 0.0)),
+    ("fig-2.12b", "λ₁ for α + ψ > 0",
+     "First-order contact length λ₁ over κ/ν, continuous contact (2.7.40); 0 in the discrete regime. "
+     f"{SETS} (it prints 5.665 for (4, 0, 0) at κ/ν = 0.5).",
+     "lambda1", PUSHED, (-1.0, 12.0), 0.5, (4.0, 0.0, 0.0)),
+    ("fig-2.16a", "r₁ for α + ψ < 0",
+     "First-order reaction r₁ over κ/ν, detached contact (2.7.71); 2α in the discrete regime. "
+     f"{SETS}. r₁ of (−1, −1, 1) is positive at κ/ν = 0.3, as the thesis notes.",
+     "r1", PULLED, (-24.0, 12.0), 0.3, (-1.0, -1.0, 1.0)),
+    ("fig-2.16b", "λ₁ for α + ψ < 0",
+     "First-order contact length λ₁ over κ/ν, detached contact (2.7.71); 0 in the discrete regime. "
+     f"{SETS} (it prints −1.7729 for (−1, −1, 0) at κ/ν = 0.5).",
+     "lambda1", PULLED, (-10.0, 8.0), 0.5, (-1.0, -1.0, 0.0)),
+))  # fmt: skip

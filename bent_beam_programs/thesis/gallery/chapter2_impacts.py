@@ -9,7 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.axes import Axes
 
-from bent_beam_programs.thesis.gallery.drawing import THEORY, beam_panel, legend_below, plain_line
+from bent_beam_programs.thesis.gallery.drawing import beam_panel, legend_below, plain_line
 from bent_beam_programs.thesis.sheet import Sheet, item
 from comparison.figures import style
 from comparison.readable import readable
@@ -46,9 +46,9 @@ def leading_zone(sheet: Sheet) -> None:
             worst.append(float(np.abs(free - fast)[np.abs(PLACES) <= 1.0].max()))
             zone_panel(axis, r"$\eta_0$")
             sheet.line(axis, PLACES, free, series="free motion", **plain_line("grey", "--", 1.4))
-            sheet.line(axis, PLACES, fast, series="fast layer", **THEORY)
+            sheet.line(axis, PLACES, fast, series="fast layer", **style.THEORY)
             zone_panel(below, r"free $-$ fast")
-            sheet.line(below, PLACES, free - fast, series="free motion less fast layer", **THEORY)
+            sheet.line(below, PLACES, free - fast, series="free motion less fast layer", **style.THEORY)
         texts = [rf"$\kappa = {kappa}$, $\tau = {tau}$" for kappa, tau in shown]
         sheet.letter(axes, [*texts[:2], "", "", *texts[2:]])
         legend_below(fig, axes[0, 0])
@@ -78,7 +78,7 @@ def first_order_zone(sheet: Sheet) -> None:
             zone_panel(axis, r"$\eta$")
             sheet.line(axis, PLACES, printed, series="free motion (2.7.41)", **plain_line("grey", "--", 1.4))
             sheet.line(axis, PLACES, free, series="not truncated", **plain_line("purple", ":", 1.2))
-            sheet.line(axis, PLACES, fast, series="fast layer", **THEORY)
+            sheet.line(axis, PLACES, fast, series="fast layer", **style.THEORY)
             zone_panel(below, r"free $-$ fast")
             below.set(xlim=(-1.1, 1.1))
             kept = np.abs(PLACES) <= 1.1

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
-from bent_beam.history import ImpactHistory
 from bent_beam_programs.thesis.gallery.drawing import (
-    THEORY,
+    NUMBERS,
     CellForces,
     beam_at_times,
     draw_maps,
@@ -16,8 +13,8 @@ from bent_beam_programs.thesis.gallery.drawing import (
     numbers_of,
     scatters_of,
 )
-from bent_beam_programs.thesis.gallery.runs import reference_runs, thesis, thesis_history, thesis_run
-from bent_beam_programs.thesis.sheet import Sheet, item
+from bent_beam_programs.thesis.gallery.runs import reference_runs, thesis
+from bent_beam_programs.thesis.sheet import Sheet, item, items
 from bent_beam_programs.thesis.studies.exact import Exact
 from bent_beam_programs.thesis.studies.numerical import NAMES
 from bent_beam_programs.thesis.studies.outcome import Outcome, scatter
@@ -49,24 +46,19 @@ def run(contact: str, mass: str, curvature: float = FLAT, duration: float = 0.1)
     return thesis(f"{NAMES[contact]}, {mass}", curvature, duration, contact=contact, mass=MASSES[mass])
 
 
-def history(contact: str, mass: str) -> ImpactHistory:
-    """The whole run of one of the four."""
-    return thesis_history(FLAT, 0.1, contact=contact, mass=MASSES[mass])
-
-
 def four() -> list[Outcome]:
     """Nodes and middles, both masses."""
     return [run(contact, mass) for mass, contact in PAIRS]
 
 
-def compare(sheet: Sheet, panels: Sequence[Panel], *measures: str) -> None:
+def compare(sheet: Sheet, *panels: Panel) -> None:
     """Panels of the four and of the references in a row, one legend, their numbers beside them."""
     own = four()
     outcomes = own + reference_runs(FLAT, 0.1)
     with sheet.figure(1, len(panels), width=style.PAGE if len(panels) > 1 else 4.6, height=3.0) as (fig, axes):
         for axis, panel in zip(np.ravel(axes), panels):
             panel(sheet, axis, outcomes)
-        numbers_of(sheet, outcomes, *measures)
+            numbers_of(sheet, outcomes, *NUMBERS.get(panel, ()))
         legend_below(fig, np.ravel(axes)[0], 2 + len(panels), fontsize=7.0)
     if banded in panels:
         scatters_of(sheet, own)
@@ -77,14 +69,14 @@ def evolution(sheet: Sheet, contact: str) -> None:
     places, last = np.linspace(0.0, 1.1, 300), TIMES[-1]
     with sheet.figure(1, 2, width=style.PAGE, height=2.9) as (fig, axes):
         for axis, mass in zip(axes, MASSES):
-            found = history(contact, mass)
-            exact = Exact(found.impact)
-            beam_at_times(sheet, axis, found, TIMES, 1.1, lambda t: f"t = {readable(t, 3)} s")
+            found = run(contact, mass)
+            exact = found.exact
+            beam_at_times(sheet, axis, found.history, TIMES, 1.1, lambda t: f"t = {readable(t, 3)} s")
             for t, colour in zip(TIMES, style.SEQUENCE):
                 axis.plot(float(exact.front(t)), 0.0, marker="^", ms=5, color=colour, clip_on=False, zorder=5)
             flat = -1e3 * exact.gap(places, last)
-            sheet.line(axis, places, flat, series=f"theory, t = {readable(last, 3)} s", **THEORY)
-            lift = 1e3 * run(contact, mass).lift
+            sheet.line(axis, places, flat, series=f"theory, t = {readable(last, 3)} s", **style.THEORY)
+            lift = 1e3 * found.lift
             style.wall_below(axis, -1.4 * lift, 0.25 * lift)
             sheet.numbers[f"largest lift inside the zone (mm), {mass} mass"] = lift
         sheet.letter(axes, [f"{mass} mass" for mass in MASSES])
@@ -120,39 +112,25 @@ def nodes(sheet: Sheet) -> None:
     evolution(sheet, "node")
 
 
-@item("fig-3.25", shown=SHOWN)
-def lengths(sheet: Sheet) -> None:
-    """Nodes and middles: contact length
-
-    Contact length until τ = 0.1 (a), and less theory's (b), nodes and middles with both masses; {shown}. As the thesis
-    says, no significant difference.
-    """
-    compare(sheet, (contact_length, length_off), "contact_length_error")
-
-
-@item("fig-3.26", shown=SHOWN)
-def reactions(sheet: Sheet) -> None:
-    """Nodes and middles: reaction
-
-    Reaction of one side until τ = 0.1, nodes and middles with both masses; {shown}: (a) means in windows, the band
-    holding eight tenths of the reaction of every step, filtered as in 3.3.1, peaks cut; (b) the impulse less theory's,
-    unfiltered. The thesis finds the general behaviour of 1/√t with both. In impulse lumped nodes are nearest to theory
-    and lumped middles furthest from it.
-    """
-    compare(sheet, (banded, impulse_off), "reaction_error")
-
-
-@item("fig-3.27", shown=SHOWN)
-def energies(sheet: Sheet) -> None:
-    """Nodes and middles: energy
-
-    Energy of the beam until τ = 0.1, less its 10 000 J before the contact, which is drawn too, nodes and middles with
-    both masses; {shown}. With lumped masses the node method loses more than the middle method, as the thesis says; with
-    the consistent matrix they lose about the same. The thesis takes the loss for the kinetic energy of the beam that
-    comes to rest. In theory none is lost, all of it runs ahead as waves; Hermite's own mesh (circles) does not resolve
-    so thin a front either and loses as much, Self-similar (diamonds) resolves it and loses none.
-    """
-    compare(sheet, (energy,), "lost_impact", "lost_damping")
+items(__name__, compare, (
+    ("fig-3.25", "Nodes and middles: contact length",
+     f"Contact length until τ = 0.1 (a), and less theory's (b), nodes and middles with both masses; {SHOWN}. As the "
+     "thesis says, no significant difference.",
+     contact_length, length_off),
+    ("fig-3.26", "Nodes and middles: reaction",
+     f"Reaction of one side until τ = 0.1, nodes and middles with both masses; {SHOWN}: (a) means in windows, the band "
+     "holding eight tenths of the reaction of every step, filtered as in 3.3.1, peaks cut; (b) the impulse less "
+     "theory's, unfiltered. The thesis finds the general behaviour of 1/√t with both. In impulse lumped nodes are "
+     "nearest to theory and lumped middles furthest from it.",
+     banded, impulse_off),
+    ("fig-3.27", "Nodes and middles: energy",
+     "Energy of the beam until τ = 0.1, less its 10 000 J before the contact, which is drawn too, nodes and middles "
+     f"with both masses; {SHOWN}. With lumped masses the node method loses more than the middle method, as the thesis "
+     "says; with the consistent matrix they lose about the same. The thesis takes the loss for the kinetic energy of "
+     "the beam that comes to rest. In theory none is lost, all of it runs ahead as waves; Hermite's own mesh (circles) "
+     "does not resolve so thin a front either and loses as much, Self-similar (diamonds) resolves it and loses none.",
+     energy),
+))  # fmt: skip
 
 
 @item("fig-3.28", shown=SHOWN)
@@ -182,7 +160,7 @@ def reaction_in_space_and_time(sheet: Sheet) -> None:
     ±λ₀√t (red line). The reaction is at the moving ends of the contact, as theory and thesis say: noise comes with the
     steps of the front, not from behind it.
     """
-    shown = {f"contact at {contact}s, {mass} mass": history(contact, mass) for mass, contact in PAIRS}
+    shown = {f"contact at {contact}s, {mass} mass": run(contact, mass).history for mass, contact in PAIRS}
     cells = draw_maps(sheet, shown, 2, 5.0)
     exact = Exact(next(iter(shown.values())).impact)
     for name, found in zip(shown, cells):
@@ -212,7 +190,7 @@ def starts(sheet: Sheet) -> None:
         for o, colour in zip(found, COLOURS.values()):
             sheet.line(axis, 1e6 * o.time, 1e3 * o.front, series=o.label, color=colour, drawstyle="steps-post", lw=0.9)
             sheet.numbers[f"first reaction (s), {o.label}"] = float(o.time[np.argmax(o.side_impulse > 0.0)])
-        sheet.line(axis, 1e6 * times, 1e3 * found[0].exact.front(times), series="theory", **THEORY)
+        sheet.line(axis, 1e6 * times, 1e3 * found[0].exact.front(times), series="theory", **style.THEORY)
         legend_below(fig, axis, 3, fontsize=7.0)
 
 
@@ -227,14 +205,16 @@ def unfiltered(sheet: Sheet) -> None:
     """
     with sheet.figure(2, 2, width=style.PAGE, height=4.4, sharex=True, sharey=True) as (_, axes):
         for axis, (mass, contact) in zip(axes.flat, PAIRS):
-            whole, found = thesis_run(FLAT, 0.1, contact=contact, mass=MASSES[mass])
-            name, time, target = f"{NAMES[contact]}, {mass}", found.time, Exact(whole.impact).side_reaction(found.time)
+            whole = run(contact, mass)
+            assert whole.steps is not None
+            found, name, time = whole.steps, f"{NAMES[contact]}, {mass}", whole.steps.time
+            target = whole.exact.side_reaction(time)
             sheet.numbers[f"scatter, {name} mass"] = scatter(time, found.reaction, target)
             sheet.numbers[f"steps without a reaction (%), {name} mass"] = 100.0 * float(np.mean(found.reaction <= 0.0))
             colour = COLOURS[mass, contact]
             pushed = np.where(found.reaction > 0.0, found.reaction, np.nan)
             sheet.line(axis, 1e6 * time, 1e-3 * pushed, series=name, color=colour, ls="", marker=".", ms=0.8)
-            sheet.line(axis, 1e6 * time, 1e-3 * target, series="theory", **THEORY)
+            sheet.line(axis, 1e6 * time, 1e-3 * target, series="theory", **style.THEORY)
             axis.set(xlabel="$t$  (µs)", xlim=(0, 1e6 * time[-1]))
             axis.set(ylabel="reaction of one side  (kN)", ylim=(1e-1, 1e4), yscale="log")
         sheet.letter(axes, [f"{NAMES[contact]}, {mass} mass" for mass, contact in PAIRS])

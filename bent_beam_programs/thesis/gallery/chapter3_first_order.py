@@ -12,18 +12,17 @@ from matplotlib.axes import Axes
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam_programs.thesis.gallery.drawing import (
-    THEORY,
     beam_at_times,
     draw_maps,
     legend_below,
     numbers_of,
     plain_line,
 )
-from bent_beam_programs.thesis.gallery.runs import every_step
+from bent_beam_programs.thesis.gallery.runs import stepped
 from bent_beam_programs.thesis.sheet import Sheet, item
 from bent_beam_programs.thesis.studies import first_order_case as study
 from bent_beam_programs.thesis.studies.exact import Exact
-from bent_beam_programs.thesis.studies.outcome import Outcome, Steps, outcome_of, saved_times
+from bent_beam_programs.thesis.studies.outcome import Outcome, outcome_of
 from bent_beam_programs.thesis.studies.panels import banded, contact_length, geometry
 from bent_beam_programs.thesis.studies.thesis import MASSES
 from comparison.figures import style
@@ -47,29 +46,16 @@ def impact(acceleration: float) -> Impact:
     )
 
 
-@functools.cache
-def old_run(acceleration: float, **changes: Any) -> tuple[ImpactHistory, Steps]:
+def old(acceleration: float, **changes: Any) -> Outcome:
     """A run with the study's settings of the thesis, steps ten times as long as its own, but for ``changes``."""
     given = impact(acceleration)
     end = DURATION * given.time_scale
-    settings = study.old_settings(given, end).replace(**changes)
-    return every_step(given, end, settings.method(), saved_times(end))
-
-
-def old_outcome(acceleration: float, **changes: Any) -> Outcome:
-    """The same, reduced to its curves, with the reaction of every step."""
-    history, steps = old_run(acceleration, **changes)
-    return outcome_of(history, study.OLD, steps=steps)
-
-
-def own_history(acceleration: float, mass: str = "lumped") -> ImpactHistory:
-    """The run with the thesis's own step; mass : a key of ``MASSES``."""
-    return old_run(acceleration, time_step=THESIS_STEP, mass=MASSES[mass])[0]
+    return replace(stepped(given, end, study.old_settings(given, end).replace(**changes)), label=study.OLD)
 
 
 def own(acceleration: float, mass: str = "lumped") -> Outcome:
-    """The same, reduced to its curves."""
-    return old_outcome(acceleration, time_step=THESIS_STEP, mass=MASSES[mass])
+    """The run with the thesis's own step; mass : a key of ``MASSES``."""
+    return old(acceleration, time_step=THESIS_STEP, mass=MASSES[mass])
 
 
 @functools.cache
@@ -114,7 +100,7 @@ def shapes(sheet: Sheet) -> None:
             y = -1e3 * finite.gap[every]
             sheet.line(axis, finite.x[every], y, series=f"Hermite, {name}", legend=legend, **mark)
             exact = -1e3 * finite.exact.gap(places, float(finite.time[-1]))
-            sheet.line(axis, places, exact, series=f"theory, {name}", legend=legend, **{**THEORY, "ls": "--"})
+            sheet.line(axis, places, exact, series=f"theory, {name}", legend=legend, **{**style.THEORY, "ls": "--"})
             for label, run in (("thesis's settings", thesis_run), ("Hermite", finite)):
                 sheet.numbers[f"lift (mm), {name}, {label}"] = 1e3 * run.lift
         style.wall_below(axis, -9.0, 1.0)
@@ -122,13 +108,13 @@ def shapes(sheet: Sheet) -> None:
         short = [label.removesuffix(f", {SIGNS[0.0]}") for _, label in pairs]
         fig.legend([handle for handle, _ in pairs], short, loc="outside lower center", ncols=5, fontsize=7.0)
     for zone in ZONES:
-        lift = 1e3 * old_outcome(700.0, zone=zone).lift
+        lift = 1e3 * old(700.0, zone=zone).lift
         sheet.numbers[f"lift (mm), {SIGNS[700.0]}, h = 2.5·10⁻⁷ s, fine to {zone:g} m"] = lift
 
 
 def evolution(sheet: Sheet, axis: Axes, acceleration: float) -> None:
     """Geometry at several times with the thesis's settings."""
-    history = own_history(acceleration)
+    history = own(acceleration).history
     times = float(history.time[-1]) * np.array([0.25, 0.5, 0.75, 1.0])
     beam_at_times(sheet, axis, history, times, EDGE, lambda t: f"t = {1e3 * t:.2g} ms")
     style.wall_below(axis, -8.0, 1.0)
@@ -140,7 +126,7 @@ def leading(sheet: Sheet, axis: Axes, what: str, end: float) -> None:
     t = end * np.linspace(0.0, 1.0, 301)[1:] ** 2
     factor = 1e3 if what == "front" else 1e-3 if "kN" in axis.get_ylabel() else 1.0
     values = factor * getattr(Exact(impact(0.0)), what)(t)
-    sheet.line(axis, 1e3 * t, values, series="theory, leading order", **{**THEORY, "ls": ":"})
+    sheet.line(axis, 1e3 * t, values, series="theory, leading order", **{**style.THEORY, "ls": ":"})
 
 
 @item("fig-3.34", case=CASE)
@@ -175,7 +161,7 @@ def all_of_it(sheet: Sheet) -> None:
 
 def one_map(sheet: Sheet, acceleration: float) -> None:
     """Thesis's settings and Hermite with its own choices, one colour scale."""
-    draw_maps(sheet, {study.OLD: own_history(acceleration), study.FINITE: resolved(acceleration)}, 1, 3.0)
+    draw_maps(sheet, {study.OLD: own(acceleration).history, study.FINITE: resolved(acceleration)}, 1, 3.0)
 
 
 MAP = (
@@ -205,7 +191,7 @@ def pulled(sheet: Sheet) -> None:
     """
     one_map(sheet, -700.0)
     sheet.numbers["R = 0 by theory of first order (ms)"] = 1e3 * Exact(impact(-700.0)).end_of_contact
-    sheet.numbers["last reaction with the thesis's settings (ms)"] = 1e3 * last_push(own_history(-700.0))
+    sheet.numbers["last reaction with the thesis's settings (ms)"] = 1e3 * last_push(own(-700.0).history)
 
 
 def last_push(history: ImpactHistory) -> float:

@@ -15,12 +15,12 @@ from scipy.interpolate import CubicHermiteSpline
 from bent_beam.history import ImpactHistory
 from bent_beam.measure.numbers import Number
 from bent_beam.meshes import UniformMesh
-from bent_beam_programs.thesis.gallery.drawing import THEORY, nearest, plain_line
+from bent_beam_programs.thesis.gallery.drawing import nearest, plain_line
 from bent_beam_programs.thesis.gallery.runs import case, thesis
-from bent_beam_programs.thesis.sheet import Sheet, item
+from bent_beam_programs.thesis.sheet import Sheet, item, items
 from bent_beam_programs.thesis.studies.exact import Exact
 from bent_beam_programs.thesis.studies.outcome import Outcome
-from bent_beam_programs.thesis.studies.thesis import CONSISTENT, THESIS_MASS, Settings
+from bent_beam_programs.thesis.studies.thesis import CONSISTENT, MASSES, THESIS_MASS, Settings
 from comparison.figures import style
 from comparison.matching import match
 from comparison.methods import methods_of
@@ -127,12 +127,11 @@ def compare(sheet: Sheet, what: str, symbol: str, error: str) -> None:
     points = [("thesis's settings", cross, [(k, v / 100.0, 0.0) for k, v in old.items()])]
     for name, mark in style.marks(r.label for r in matched()).items():
         mine = [r for r in matched() if r.label == name and getattr(r, what).measured]
-        drawn = {k: v for k, v in mark.items() if k != "label"}
-        points.append((name, drawn, [(r.kappa_over_nu, *shares(getattr(r, what))) for r in mine]))
+        points.append((name, mark, [(r.kappa_over_nu, *shares(getattr(r, what))) for r in mine]))
     with sheet.figure(2, 1, width=4.6, height=4.9, sharex=True, height_ratios=[1.5, 1]) as (_, (top, below)):
         top.set(xscale="log", yscale="log", ylabel=f"{symbol}  (1)")
         below.set(xlabel=r"$\kappa/\nu$  (1)", ylabel="difference  (%)")
-        sheet.line(top, ratios, getattr(contact_parameters(ratios), what), series="theory", **THEORY)
+        sheet.line(top, ratios, getattr(contact_parameters(ratios), what), series="theory", **style.THEORY)
         for name, drawn, found in points:
             if not found:
                 continue
@@ -153,30 +152,18 @@ def compare(sheet: Sheet, what: str, symbol: str, error: str) -> None:
 
 COMPARED = (
     "over κ/ν for the curvatures of Table 3.4: theory, the thesis's settings (middles, as in Table 3.3, lumped mass), "
-    "Hermite, and Exudyn at every second one; relative differences below, with the error bars of Hermite "
-    "and Exudyn, linear within ±0.01 %, "
-    "logarithmic beyond"
+    "Hermite, and Exudyn at every second one; relative differences below, with the error bars of Hermite and Exudyn, "
+    "linear within ±0.01 %, logarithmic beyond."
 )
-
-
-@item("fig-3.29", compared=COMPARED)
-def matched_length(sheet: Sheet) -> None:
-    """λ₀ over κ/ν: theory and simulation
-
-    λ₀ {compared}.
-    """
-    compare(sheet, "lambda0", r"$\lambda_0$", "contact_length_error")
-
-
-@item("fig-3.30", compared=COMPARED)
-def matched_reaction(sheet: Sheet) -> None:
-    """r₀ over κ/ν: theory and simulation
-
-    r₀ {compared}. With lumped middles r₀ is too large by about a half on the flat beams; the thesis finds it over- and
-    underestimated. r₀ is fitted to impulses here, not to filtered forces. The
-    thesis's R₀ is √(2/π)μV₀(EI/μ)^¼ r₀, one side, N√s.
-    """
-    compare(sheet, "r0", r"$r_0/\nu$", "reaction_error")
+items(__name__, compare, (
+    ("fig-3.29", "λ₀ over κ/ν: theory and simulation", f"λ₀ {COMPARED}",
+     "lambda0", r"$\lambda_0$", "contact_length_error"),
+    ("fig-3.30", "r₀ over κ/ν: theory and simulation",
+     f"r₀ {COMPARED} With lumped middles r₀ is too large by about a half on the flat beams; the thesis finds it over- "
+     "and underestimated. r₀ is fitted to impulses here, not to filtered forces. The thesis's R₀ is "
+     "√(2/π)μV₀(EI/μ)^¼ r₀, one side, N√s.",
+     "r0", r"$r_0/\nu$", "reaction_error"),
+))  # fmt: skip
 
 
 # discrete contact
@@ -247,7 +234,7 @@ def discrete(sheet: Sheet) -> None:
         impulses(sheet, axes[1, 1])
     closed = int(np.argmax(middles.array("total_impulse") > 0.0))
     sheet.numbers["middles close at (s)"] = float(middles.time[closed])
-    for name, mass in (("lumped", THESIS_MASS), ("consistent", CONSISTENT)):
+    for name, mass in MASSES.items():
         impulse, energy = first_impact(ELEMENT, mass)
         sheet.numbers |= {f"first impact, {name} (N s)": impulse, f"first impact, {name} (J)": energy}
     sheet.numbers["first impact, lumped, h = 10⁻¹⁰ s (N s)"] = first_impact(ELEMENT, THESIS_MASS, 1e-10)[0]
@@ -258,12 +245,12 @@ def discrete(sheet: Sheet) -> None:
 def energies(sheet: Sheet, axis: Axes) -> None:
     """Energy over time with both masses, contact at nodes."""
     axis.set(xlabel="$t$  (µs)", ylabel="$E - E(0)$  (J)", xlim=(-2.0, 1e6 * END))
-    for name, mass, colour in (("lumped", THESIS_MASS, "vermilion"), ("consistent", CONSISTENT, "sky")):
+    for (name, mass), colour in zip(MASSES.items(), ("vermilion", "sky")):
         history = run("node", ELEMENT, 50.0, END, STEP, mass)
         change, shade = energy_change(history), style.COLOURS[colour]
         times, change = np.append([-2e-6], history.time), np.append([0.0], change)  # free flight before
         sheet.line(axis, 1e6 * times, change, series=f"nodes, {name}", color=shade)
-    sheet.line(axis, [0.0, 1e6 * END], [0.0, 0.0], series="theory", **THEORY)
+    sheet.line(axis, [0.0, 1e6 * END], [0.0, 0.0], series="theory", **style.THEORY)
     axis.legend(fontsize=7, loc="center right", bbox_to_anchor=(1.0, 0.75))
 
 
@@ -278,7 +265,7 @@ def impulses(sheet: Sheet, axis: Axes) -> None:
         sheet.line(axis, 1e6 * middle, 1e-3 * force, series=f"Δx = {readable(element)} m", color=colour, lw=0.9)
     t = np.geomspace(0.5 * STEP, END, 200)
     exact = Exact(case(CURVATURE, DURATION).impact)
-    sheet.line(axis, 1e6 * t, 2e-3 * exact.side_reaction(t), series="theory", **THEORY)
+    sheet.line(axis, 1e6 * t, 2e-3 * exact.side_reaction(t), series="theory", **style.THEORY)
     axis.set(xlabel="$t$  (µs)", ylabel="reaction $R$  (kN)", xscale="log", yscale="log")
     axis.set(xlim=(1e-2, 25), ylim=(1.0, 1e6))
     axis.legend(fontsize=6.5, loc="upper right", ncols=2)

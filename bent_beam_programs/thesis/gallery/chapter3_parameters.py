@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 from dataclasses import replace
 
 import numpy as np
@@ -20,10 +19,10 @@ from bent_beam_programs.thesis.gallery.drawing import (
     named,
     numbers_of,
     plain_line,
-    run_items,
+    run_figure,
 )
 from bent_beam_programs.thesis.gallery.runs import Series, case, thesis
-from bent_beam_programs.thesis.sheet import Sheet, item
+from bent_beam_programs.thesis.sheet import Sheet, item, items
 from bent_beam_programs.thesis.studies.exact import Exact
 from bent_beam_programs.thesis.studies.numerical import PER_ELEMENT, square_mesh
 from bent_beam_programs.thesis.studies.outcome import CUT_OFF, Outcome
@@ -58,35 +57,42 @@ OURS_TOO = (
 )
 BASE = 2.5e-8  # s, the thesis's choice
 BASE_STEP = f"h = {readable(BASE)} s"
-run_items(__name__, (
-    ("fig-3.7", "Time step: geometry", (geometry, geometry_off(BASE_STEP)), lambda: STEPS,
+items(__name__, run_figure, (
+    ("fig-3.7", "Time step: geometry",
      f"Impact zone for several time steps, and differences from {BASE_STEP}; {COARSE_CASE}. The thesis finds a "
-     "detachment of the order of 2·10⁻⁴ m whatever h."),
-    ("fig-3.8", "Time step: contact length", (contact_length, less(BASE_STEP, "front", r"$\lambda_c$", "m")),
-     lambda: STEPS,
+     "detachment of the order of 2·10⁻⁴ m whatever h.",
+     STEPS, (geometry, geometry_off(BASE_STEP))),
+    ("fig-3.8", "Time step: contact length",
      f"Contact length λ_c for several time steps, and less that of {BASE_STEP}; {COARSE_CASE}. Steps of "
      "the lines are the elements; where a line falls back, the outermost node is off the wall for a moment. Read as in "
      "the thesis (3.3.5): the first node from outside that touches or has a minimal gap; it touches below 10⁻⁶ V₀t, "
-     "in the thesis below 10⁻⁶ m."),
-    ("fig-3.9", "Time step: reaction", REACTION, lambda: STEPS,
+     "in the thesis below 10⁻⁶ m.",
+     STEPS, (contact_length, less(BASE_STEP, "front", r"$\lambda_c$", "m"))),
+    ("fig-3.9", "Time step: reaction",
      f"Reaction of one side for several time steps: {FILTER}; {COARSE_CASE}. Not reproduced: the thesis finds "
      "that 2.5·10⁻⁸ and 10⁻⁸ s catch 1/√t, and 10⁻⁸ s scatters most here. Reproduced: 10⁻⁶ and 10⁻⁷ s miss 1/√t at the "
      "start. Its filter smooths over a number of steps, so that it decides what is seen (extra-filter). The impulse "
-     "differs little below 10⁻⁶ s: no step is better."),
-    ("fig-3.17", "Spectral radius: geometry", (geometry, geometry_off("ρ∞ = 0.8")), lambda: RADII,
+     "differs little below 10⁻⁶ s: no step is better.",
+     STEPS, REACTION),
+    ("fig-3.17", "Spectral radius: geometry",
      f"Geometry at τ = 0.01 for several spectral radii, and differences from ρ∞ = 0.8; {DAMPED_CASE}. The values of "
-     "the thesis's legend are not in its text; it sees no major change."),
-    ("fig-3.18", "Spectral radius: energy", (energy, less("ρ∞ = 0.8", "energy", "$E$", "J")), lambda: RADII,
+     "the thesis's legend are not in its text; it sees no major change.",
+     RADII, (geometry, geometry_off("ρ∞ = 0.8"))),
+    ("fig-3.18", "Spectral radius: energy",
      f"Energy of the beam until τ = 0.01 for several spectral radii, and differences from ρ∞ = 0.8; {DAMPED_CASE}. As "
      f"the thesis says, numerical dissipation is small against the loss in impacts, which it takes for physics. "
-     f"{OURS_TOO}"),
-    ("fig-3.19", "Restitution: geometry", (geometry,), lambda: RESTITUTIONS,
-     f"Geometry at τ = 0.1 for restitution 0 and 1; {DAMPED_CASE}."),
-    ("fig-3.20", "Restitution: reaction", NOISY, lambda: RESTITUTIONS,
-     f"Reaction of one side until τ = 0.1 for restitution 0 and 1: {BAND}; {DAMPED_CASE}."),
-    ("fig-3.21", "Restitution: energy", (energy,), lambda: RESTITUTIONS,
+     f"{OURS_TOO}",
+     RADII, (energy, less("ρ∞ = 0.8", "energy", "$E$", "J"))),
+    ("fig-3.19", "Restitution: geometry",
+     f"Geometry at τ = 0.1 for restitution 0 and 1; {DAMPED_CASE}.",
+     RESTITUTIONS, (geometry,)),
+    ("fig-3.20", "Restitution: reaction",
+     f"Reaction of one side until τ = 0.1 for restitution 0 and 1: {BAND}; {DAMPED_CASE}.",
+     RESTITUTIONS, NOISY),
+    ("fig-3.21", "Restitution: energy",
      f"Energy of the beam until τ = 0.1 for restitution 0 and 1, and in free flight before; {DAMPED_CASE}. The thesis "
-     f"takes the loss with 0 for physics. {OURS_TOO}"),
+     f"takes the loss with 0 for physics. {OURS_TOO}",
+     RESTITUTIONS, (energy,)),
 ))  # fmt: skip
 
 
@@ -101,21 +107,17 @@ def filter_decides(sheet: Sheet) -> None:
     grows as h falls, and at 10⁻⁶ s 1/√t is lost; with the filter in seconds all steps up to 10⁻⁷ s scatter alike. What
     the thesis compares in Fig. 3.9 to choose h is for the most part its filter.
     """
-    outcomes = [o for o in STEPS.outcomes("lumped") if o.steps is not None]
-    same = [  # the smoothing, in seconds, of the thesis's step
-        replace(o, steps=replace(o.steps, cut_off=CUT_OFF * float(o.steps.time[0]) / BASE))
-        for o in outcomes
-        if o.steps is not None
-    ]
+    runs = [(o, o.steps) for o in STEPS.outcomes("lumped") if o.steps is not None]
+    outcomes, h = [o for o, _ in runs], [float(steps.time[0]) for _, steps in runs]
+    # the smoothing, in seconds, of the thesis's step
+    same = [replace(o, steps=replace(steps, cut_off=CUT_OFF * step / BASE)) for (o, steps), step in zip(runs, h)]
     with sheet.figure(1, 3, width=style.PAGE, height=2.7) as (fig, axes):
         for axis, shown in zip(axes, (outcomes, same)):
             filtered(sheet, axis, shown)
         axes[2].set(xscale="log", xlabel="$h$  (s)", ylabel="scatter over theory  (1)")
         for name, shown, colour in (("per step", outcomes, "vermilion"), ("in seconds", same, "blue")):
-            h, off = [float(o.steps.time[0]) for o in shown if o.steps], [filtered_scatter(o) for o in shown]
-            sheet.line(
-                axes[2], h, np.array(off, float), series=f"filter {name}", **plain_line(colour, marker="o", ms=4)
-            )
+            off, line = [filtered_scatter(o) for o in shown], plain_line(colour, marker="o", ms=4)
+            sheet.line(axes[2], h, np.array(off, float), series=f"filter {name}", **line)
             sheet.numbers |= {f"scatter, filter {name}, {o.label}": v for o, v in zip(shown, off)}
         axes[2].legend(fontsize=7)
         sheet.letter(axes, ["per step", "in seconds", ""])
@@ -148,42 +150,41 @@ FLAT = 1.0 / 80.0
 ELEMENTS = {1.0: 20000, 1.05: 302, 1.1: 192, 1.25: 120, 1.5: 92}  # e: count, Table 3.2
 
 
-@functools.cache
-def square() -> SquareMesh:
-    """The square mesh over the contact zone at τ = 0.01."""
-    given = case(FLAT, 0.01)
-    laid = square_mesh(given, thesis_settings(given.impact, given.end_time))
-    if laid is None:
-        raise ValueError("the square mesh needs too many elements")
-    front = float(Exact(given.impact).front(given.end_time))
-    return SquareMesh(first_element=laid.first_element, zone=front, growth=1.25)
-
-
 LENGTHS = Series(
     COARSE, 0.01, {f"Δx = {readable(1e3 * dx)} mm": {"element_length": dx} for dx in (5e-3, 2.5e-3, 1.5e-3)}
 )
 
 
-@functools.cache
-def meshes() -> Series:
-    return Series(FLAT, 0.01, {"uniform zone": {}, '"square" zone': {"mesh": square()}})
+def square_zone() -> SquareMesh:
+    """The square mesh over the contact zone at τ = 0.01."""
+    given = case(FLAT, 0.01)
+    laid = square_mesh(given, thesis_settings(given.impact, given.end_time))
+    assert laid is not None  # it has few enough elements
+    return replace(laid, zone=float(Exact(given.impact).front(given.end_time)))
 
 
+SQUARE = square_zone()
+ZONES = Series(FLAT, 0.01, {"uniform zone": {}, '"square" zone': {"mesh": SQUARE}})
 SQUARE_CASE = f"K = 1/80 1/m (κ/ν = 6.25·10⁻⁴), τ = 0.01, h = 2.5·10⁻⁸ s, e = 1.25, a = 5; {LEGEND}"
-run_items(__name__, (
-    ("fig-3.10", "Element length: geometry", (geometry,), lambda: LENGTHS,
+items(__name__, run_figure, (
+    ("fig-3.10", "Element length: geometry",
      f"Impact zone for several element lengths; {COARSE_CASE}. As the thesis says, its element lengths do not remove"
-     " the lift."),
-    ("fig-3.11", "Element length: contact length", (contact_length,), lambda: LENGTHS,
-     f"Contact length λ_c for several element lengths; {COARSE_CASE}. The staircase is that of the elements."),
-    ("fig-3.12", "Element length: reaction", REACTION, lambda: LENGTHS,
+     " the lift.",
+     LENGTHS, (geometry,)),
+    ("fig-3.11", "Element length: contact length",
+     f"Contact length λ_c for several element lengths; {COARSE_CASE}. The staircase is that of the elements.",
+     LENGTHS, (contact_length,)),
+    ("fig-3.12", "Element length: reaction",
      f"Reaction of one side for several element lengths: {FILTER}; {COARSE_CASE}. The thesis finds Δx = 5 mm too high "
-     "and misses 1/√t at the beginning with 1.5 mm."),
-    ("fig-3.14", "Square mesh: geometry", (geometry,), meshes,
+     "and misses 1/√t at the beginning with 1.5 mm.",
+     LENGTHS, REACTION),
+    ("fig-3.14", "Square mesh: geometry",
      f"Geometry at τ = 0.01 on both meshes; {SQUARE_CASE}. The first constraint of the square mesh is at the middle of "
-     "its first element and does not stop the central node: the thesis has it some 1.8·10⁻⁴ m inside the wall."),
-    ("fig-3.16", "Square mesh: reaction", REACTION, meshes,
-     f"Reaction of one side until τ = 0.01 on both meshes: {FILTER}; {SQUARE_CASE}. Neither mesh resolves the front."),
+     "its first element and does not stop the central node: the thesis has it some 1.8·10⁻⁴ m inside the wall.",
+     ZONES, (geometry,)),
+    ("fig-3.16", "Square mesh: reaction",
+     f"Reaction of one side until τ = 0.01 on both meshes: {FILTER}; {SQUARE_CASE}. Neither mesh resolves the front.",
+     ZONES, REACTION),
 ))  # fmt: skip
 
 
@@ -241,7 +242,7 @@ def zone_counts(sheet: Sheet) -> None:
 
 def square_middle(mass: str) -> float:
     """Depth of the central node of the square mesh inside the wall at the end, m."""
-    return -float(thesis("", FLAT, 0.01, mesh=square(), mass=MASSES[mass]).gap[0])
+    return -float(thesis("", FLAT, 0.01, mesh=SQUARE, mass=MASSES[mass]).gap[0])
 
 
 @item("fig-3.13", case=SQUARE_CASE.partition(";")[0])
@@ -251,8 +252,8 @@ def square_nodes(sheet: Sheet) -> None:
     Nodes of the "square" mesh x_i ∝ √i on the bent beam before the impact; {case}. (b) Lengths of the elements; dotted,
     the end of the contact at τ = 0.01.
     """
-    curvature, laid = case(FLAT, 0.01).impact.curvature, square().nodes(25.0)
-    shown = laid[laid <= 1.6 * square().zone]
+    curvature, laid = case(FLAT, 0.01).impact.curvature, SQUARE.nodes(25.0)
+    shown = laid[laid <= 1.6 * SQUARE.zone]
     line = plain_line("blue", width=0.5, marker="o", ms=2.5)
     with sheet.figure(1, 2, width=style.PAGE, height=2.5) as (_, axes):
         axes[0].set(xlabel="$x$  (m)", ylabel="$y$  (mm)")
@@ -261,7 +262,7 @@ def square_nodes(sheet: Sheet) -> None:
         sheet.line(axes[1], shown[:-1], 1e3 * np.diff(shown), series="element length", **line)
         axes[0].invert_yaxis()  # the wall is below
         for axis in axes:
-            guide(axis, x=square().zone)
+            guide(axis, x=SQUARE.zone)
     sheet.numbers |= {"first element (mm)": 1e3 * laid[1], "shortest element (mm)": 1e3 * float(np.diff(laid).min())}
 
 
@@ -274,7 +275,7 @@ def square_length(sheet: Sheet) -> None:
     """
     with sheet.figure(2, 2, width=style.PAGE, height=4.6) as (fig, axes):
         for column, mass in zip(axes.T, MASSES):
-            found = meshes().outcomes(mass)
+            found = ZONES.outcomes(mass)
             end = float(found[0].time[-1])
             low, high = (float(found[0].exact.front(t)) for t in (0.6 * end, end))
             for axis in column:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from bent_beam_programs.thesis.gallery.drawing import THEORY, guide, legend_below, plain_line
+from bent_beam_programs.thesis.gallery.drawing import guide, legend_below, plain_line
 from bent_beam_programs.thesis.sheet import Sheet, item
 from comparison.figures import style
 from hermite_fe import INTEGRATORS
 from hermite_fe.beam import HermiteBeam, shape_functions
 from hermite_fe.run import integrate
 from hermite_fe.system import ContactRows, System
+from theory.ladder import BouncingBall
 
 LENGTH, STIFFNESS, ELEMENTS = 5.0, 9.345e3, 52
 NODES = np.linspace(0.0, LENGTH, ELEMENTS + 1)
@@ -31,7 +32,7 @@ def static(sheet: Sheet, force: float, node: int, supports: dict[int, float], ex
     found = beam.static(load, supports)[0::2]
     with sheet.figure() as (_, axis):
         axis.set(xlabel="$x$  (m)", ylabel="$w$  (m)", xlim=(0, LENGTH))
-        sheet.line(axis, beam.nodes, -exact, series="theory", **THEORY)
+        sheet.line(axis, beam.nodes, -exact, series="theory", **style.THEORY)
         sheet.line(axis, beam.nodes, -found, series="Hermite", **style.mark("hermite"), markevery=2)
         axis.legend()
     largest = float(np.abs(exact).max())
@@ -93,18 +94,11 @@ def predicting_ball(step: float, instants: int) -> np.ndarray:
 
 
 def exact_ball(end: float) -> tuple[np.ndarray, np.ndarray]:
-    """Times (s) and heights (m) of the exact flight, its bounces among the times.
-
-    The ball falls for √(2H/g), and flight n after it lasts 2 eⁿ √(2H/g).
-    """
-    fall = np.sqrt(2.0 * HEIGHT / GRAVITY)
-    bounces = fall + np.concatenate([[0.0], np.cumsum(2.0 * fall * RESTITUTION ** np.arange(1, 60))])
+    """Times (s) and heights (m) of the exact flight, its bounces among the times."""
+    found = BouncingBall(HEIGHT, gravity=GRAVITY, restitution=RESTITUTION)
+    bounces = found.impact_time(np.arange(1, 61))
     times = np.unique(np.concatenate([np.linspace(0.0, end, 3001), bounces[bounces <= end]]))
-    number = np.searchsorted(bounces, times, side="right")  # bounces so far
-    start = np.where(number > 0, bounces[number - 1], -fall)
-    speed = GRAVITY * fall * RESTITUTION**number
-    s = times - start
-    return times, np.where(np.isin(times, bounces), 0.0, speed * s - 0.5 * GRAVITY * s**2)
+    return times, np.where(np.isin(times, bounces), 0.0, found.position(times))
 
 
 @item("fig-3.6")
@@ -122,7 +116,7 @@ def bouncing(sheet: Sheet) -> None:
     with sheet.figure(1, 2, width=style.PAGE, height=2.5) as (fig, axes):
         for axis, marker in zip(axes, ("", ".")):
             axis.set(xlabel="$t$  (s)", ylabel="$q$  (m)")
-            sheet.line(axis, dense, exact, series="theory", **THEORY)
+            sheet.line(axis, dense, exact, series="theory", **style.THEORY)
             drawn = (("position predicted", predicted, "vermilion"), ("Moreau–Jean", height, "blue"))
             for series, y, colour in drawn:
                 sheet.line(axis, times, y, series=series, **plain_line(colour, width=0.9, marker=marker, ms=4))
@@ -150,4 +144,4 @@ def shapes(sheet: Sheet) -> None:
         for i, (axis, values) in enumerate(zip(axes.flat, shape_functions(xi, 1.0).T), 1):
             axis.set(ylabel=f"$N_{i}$  (1)" if i % 2 else f"$N_{i}/l_e$  (1)", xlim=(0, 1))
             axis.set_xlabel(r"$\xi$  (1)" if i > 2 else "")
-            sheet.line(axis, xi, values, series=f"N{i}", **THEORY)
+            sheet.line(axis, xi, values, series=f"N{i}", **style.THEORY)

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from bent_beam_programs.thesis.gallery.drawing import THEORY, legend_below
-from bent_beam_programs.thesis.sheet import Sheet, item
+from bent_beam_programs.thesis.gallery.drawing import legend_below
+from bent_beam_programs.thesis.sheet import Sheet, item, items
 from comparison.figures import style
 from hermite_fe.beam import shape_functions
 
@@ -71,7 +71,7 @@ def problem(sheet: Sheet) -> None:
         axis.text(-2.25, 0.33, "rigid wall", fontsize=7)
 
 
-def contact_sketch(sheet: Sheet, edge: float, symbol: str, *, uniform: bool = False) -> None:
+def contact_sketch(sheet: Sheet, edge: float, symbol: str, uniform: bool = False) -> None:
     """A beam on the wall with its reactions at ±edge, or uniform between."""
     x = np.linspace(-2.0, 2.0, 201)
     y = -0.72 * np.clip((np.abs(x) - edge) / (2.0 - edge), 0.0, None) ** 2
@@ -96,31 +96,15 @@ def contact_sketch(sheet: Sheet, edge: float, symbol: str, *, uniform: bool = Fa
         sheet.record(axis, places, np.zeros(places.size), "reactions")
 
 
-@item("fig-2.4")
-def discrete_contact(sheet: Sheet) -> None:
-    """Discrete contact
-
-    Discrete contact at ξ = 0 with the reaction R̃(τ): κ/ν ≥ 1.
-    """
-    contact_sketch(sheet, 0.0, r"$\tilde R(\tau)$")
-
-
-@item("fig-2.5")
-def double_contact(sheet: Sheet) -> None:
-    """Double contact
-
-    Contact with two concentrated reactions, half of R̃(τ) each, at ξ = ±λ_c(τ): κ/ν < 1 at leading order.
-    """
-    contact_sketch(sheet, 0.9, r"$\frac{1}{2}\tilde R(\tau)$")
-
-
-@item("fig-2.6")
-def continuous_contact(sheet: Sheet) -> None:
-    """Continuous contact
-
-    Continuous contact on |ξ| ≤ λ_c(τ) with a uniform reaction r̃: first order, α + ψ > 0.
-    """
-    contact_sketch(sheet, 0.9, r"$\tilde r$", uniform=True)
+items(__name__, contact_sketch, (
+    ("fig-2.4", "Discrete contact",
+     "Discrete contact at ξ = 0 with the reaction R̃(τ): κ/ν ≥ 1.", 0.0, r"$\tilde R(\tau)$"),
+    ("fig-2.5", "Double contact",
+     "Contact with two concentrated reactions, half of R̃(τ) each, at ξ = ±λ_c(τ): κ/ν < 1 at leading order.",
+     0.9, r"$\frac{1}{2}\tilde R(\tau)$"),
+    ("fig-2.6", "Continuous contact",
+     "Continuous contact on |ξ| ≤ λ_c(τ) with a uniform reaction r̃: first order, α + ψ > 0.", 0.9, r"$\tilde r$", True),
+))  # fmt: skip
 
 
 @item("fig-3.1")
@@ -170,7 +154,7 @@ def beam_and_moment(sheet: Sheet, moment: np.ndarray, label: str, sign: str, loa
         lower.axhline(0.0, color="black", lw=0.7)
         lower.set(xlabel="$x/L$  (1)", ylabel="$M/(PL)$  (1)")
         lower.fill_between(x, 0.0, moment, color=style.COLOURS["sky"], alpha=0.4, lw=0)
-        sheet.line(lower, x, moment, series="bending moment", **THEORY)
+        sheet.line(lower, x, moment, series="bending moment", **style.THEORY)
         off, side = (4, 2 if moment[k] > 0 else 6), "left" if x[k] < 0.9 else "right"
         lower.annotate(label, (x[k], moment[k]), xytext=off, textcoords="offset points", ha=side)
         lower.text(0.35 if x[k] == 0.5 else 0.5, moment[k] / 4, sign, ha="center", va="center", fontsize=10)

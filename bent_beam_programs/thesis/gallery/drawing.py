@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -16,13 +15,12 @@ from matplotlib.colors import LogNorm
 from bent_beam.history import ImpactHistory
 from bent_beam.measure.force_map import force_map
 from bent_beam_programs.thesis.gallery.runs import Series
-from bent_beam_programs.thesis.sheet import ITEMS, Item, Sheet
+from bent_beam_programs.thesis.sheet import Sheet
 from bent_beam_programs.thesis.studies.exact import Exact
 from bent_beam_programs.thesis.studies.outcome import MEASURES, Outcome, scatter
 from bent_beam_programs.thesis.studies.panels import (
     REACH,
     ROOT,
-    THEORY,
     Panel,
     banded,
     contact_length,
@@ -36,9 +34,6 @@ from bent_beam_programs.thesis.studies.panels import (
 from bent_beam_programs.thesis.studies.thesis import MASSES
 from comparison.figures import style
 from theory import ImpactFields
-
-RunFigure = tuple[str, str, Sequence[Panel], Callable[[], Series], str]
-"""Id, title, panels, runs and caption of a figure of runs."""
 
 NUMBERS: dict[Panel, tuple[str, ...]] = {
     geometry: ("lift",),
@@ -89,13 +84,13 @@ def numbers_of(sheet: Sheet, outcomes: Sequence[Outcome], *names: str) -> None:
         sheet.numbers |= {f"{MEASURES[name]}, {o.label}": o.measures.get(name) for o in outcomes}
 
 
-def run_figure(sheet: Sheet, series: Callable[[], Series], panels: Sequence[Panel]) -> None:
+def run_figure(sheet: Sheet, series: Series, panels: Sequence[Panel]) -> None:
     """Panels of the runs below one another, a column a mass; one legend, and the runs' numbers beside them."""
     rows = len(panels)
     with sheet.figure(rows, 2, width=style.PAGE, height=2.3 * rows + 0.4, sharex="row") as (fig, axes):
         grid = np.reshape(axes, (rows, 2))
         for i, (column, mass) in enumerate(zip(grid.T, MASSES)):
-            outcomes = series().outcomes(mass)
+            outcomes = series.outcomes(mass)
             for axis, panel in zip(column, panels):
                 panel(sheet, axis, outcomes)
                 numbers_of(sheet, named(outcomes, mass, only_own=i > 0), *NUMBERS.get(panel, ()))
@@ -119,13 +114,6 @@ def filtered_scatter(outcome: Outcome) -> float | None:
 def scatters_of(sheet: Sheet, outcomes: Sequence[Outcome]) -> None:
     """The scatter of each run's filtered reaction beside the figure."""
     sheet.numbers |= {f"filtered reaction, scatter about theory, {o.label}": filtered_scatter(o) for o in outcomes}
-
-
-def run_items(module: str, figures: Iterable[RunFigure]) -> None:
-    """Register figures of runs under their numbers."""
-    for name, title, panels, series, caption in figures:
-        draw = functools.partial(run_figure, series=series, panels=panels)
-        ITEMS[name] = Item(name, title, caption, module, draw)
 
 
 def named(outcomes: Sequence[Outcome], mass: str, only_own: bool) -> list[Outcome]:
@@ -171,7 +159,7 @@ def beam_panel(
     sheet.line(axis, xi, free, series="free motion", **FREE)
     if zoom is None:
         sheet.line(axis, xi, layer, series=r"fast layer $\eta$", **FAST)
-    sheet.line(axis, xi, free - layer, series="beam", **THEORY)
+    sheet.line(axis, xi, free - layer, series="beam", **style.THEORY)
     mark = plain_line("vermilion", "", marker="v", ms=5, clip_on=False)
     sheet.line(axis, np.unique([-front, front]), 0.0, series="contact points", **mark)
     style.wall_below(axis, *limits)

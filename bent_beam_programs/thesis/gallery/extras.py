@@ -14,7 +14,7 @@ from bent_beam_programs.thesis.gallery import chapter3_contact_point as contact_
 from bent_beam_programs.thesis.gallery import chapter3_first_order as first
 from bent_beam_programs.thesis.gallery.chapter3_contact_point import COLOURS, CONTACT, FLAT, SHOWN
 from bent_beam_programs.thesis.gallery.drawing import guide, legend_below, numbers_of, plain_line
-from bent_beam_programs.thesis.gallery.runs import case, reference_history, thesis, thesis_history
+from bent_beam_programs.thesis.gallery.runs import case, reference_history, thesis
 from bent_beam_programs.thesis.sheet import Sheet, item
 from bent_beam_programs.thesis.studies import conditioning as study
 from bent_beam_programs.thesis.studies.base import outcomes_of
@@ -64,10 +64,7 @@ def fine(sheet: Sheet) -> None:
     given = case(1.0, 0.01)
     zone = thesis_settings(given.impact, given.end_time).zone
     found = [
-        outcome_of(
-            thesis_history(1.0, 0.01, mesh=GradedMesh(dx, 1.25, zone=zone, size_ratio=study.UNCAPPED)),
-            f"Δx = {readable(dx)} m",
-        )
+        thesis(f"Δx = {readable(dx)} m", 1.0, 0.01, mesh=GradedMesh(dx, 1.25, zone=zone, size_ratio=study.UNCAPPED))
         for dx in (2.5e-3, 1e-4)
     ]
     with sheet.figure(1, 2, width=style.PAGE, height=2.8) as (fig, axes):
@@ -102,7 +99,7 @@ def signorini(sheet: Sheet) -> None:
     """
     old = plain_line("vermilion", width=1.1)
     runs = {
-        "thesis's settings": (thesis_history(10.0, 0.1, contact="node"), old),
+        "thesis's settings": (thesis("", 10.0, 0.1, contact="node").history, old),
         HermiteFE().label: (reference_history(10.0, 0.1, HermiteFE.path), style.mark(HermiteFE.path)),
     }
     with sheet.figure(1, 2, width=style.PAGE, height=2.7) as (fig, axes):
@@ -206,10 +203,10 @@ def masses(sheet: Sheet) -> None:
         for contact in CONTACT:
             outcome = thesis("", FLAT, 0.1, contact=contact, mass=mass)
             cells += [round(1e3 * outcome.lift, 2), round(float(outcome.strain[-1]), 1)]
-        cells.append(round(1e3 * first.old_outcome(0.0, mass=mass).lift, 2))
-        cells += [round(fitted(first.old_outcome(700.0 * sign, mass=mass)), 1) for sign in FITTED]
+        cells.append(round(1e3 * first.old(0.0, mass=mass).lift, 2))
+        cells += [round(fitted(first.old(700.0 * sign, mass=mass)), 1) for sign in FITTED]
         rows.append(cells)
     columns = ("mass matrix", "node: lift (mm)", "strain (J)", "middle: lift (mm)", "strain (J)", "3.5: lift (mm)")
     sheet.table([*columns, "λ₁, +", "λ₁, −"], rows)
     for h in (1e-6, 5e-7, 2.5e-7):
-        sheet.numbers[f"λ₁, +, lumped, r = 1/105, h = {readable(h)} s"] = fitted(first.old_outcome(700.0, time_step=h))
+        sheet.numbers[f"λ₁, +, lumped, r = 1/105, h = {readable(h)} s"] = fitted(first.old(700.0, time_step=h))

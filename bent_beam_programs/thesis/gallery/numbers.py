@@ -174,7 +174,7 @@ def first_order() -> Iterator[Printed]:
     """Section 3.5, with the thesis's own step."""
     strong = first.impact(700.0)
     rule = old_settings(strong, first.DURATION * strong.time_scale).zone
-    zones = ", ".join(f"{1e3 * first.old_outcome(700.0, zone=z).lift:.2g} mm for {z:g} m" for z in first.ZONES)
+    zones = ", ".join(f"{1e3 * first.old(700.0, zone=z).lift:.2g} mm for {z:g} m" for z in first.ZONES)
     for printed, where, digits in (("4.1e-4", "3.5, Fig. 3.33", "nodes"), ("4e-4", "3.5", "“in the order of”; nodes")):
         yield on_runs(where, "lift, a₀ = 0, m", printed, lambda mass: first.own(0.0, mass).lift, digits)
     yield on_runs("3.5, Fig. 3.33", "lift, a₀ = 700 m/s², m", "3.2e-4", lambda mass: first.own(700.0, mass).lift,
@@ -187,7 +187,7 @@ def first_order() -> Iterator[Printed]:
                       f"nodes; theory predicts {readable(predicted(first.impact(a)))} for t → 0")
     end = readable(Exact(first.impact(-700.0)).end_of_contact, 3)
     yield on_runs("3.5", "the beam leaves the wall, a₀ = −700 m/s², s", "3.7e-3",
-                  lambda mass: first.last_push(first.own_history(-700.0, mass)), f"nodes; ours: the last push of the "
+                  lambda mass: first.last_push(first.own(-700.0, mass).history), f"nodes; ours: the last push of the "
                   f"wall. Theory of first order has R = 0 at {end} s; the thesis draws it beyond (Fig. 3.36)")
 # fmt: on
 

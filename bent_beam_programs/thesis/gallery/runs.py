@@ -18,7 +18,7 @@ from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.method import refined
 from bent_beam_programs.thesis.studies.outcome import Array, Outcome, Steps, outcome_of, saved_times
-from bent_beam_programs.thesis.studies.thesis import MASSES, references, thesis_settings
+from bent_beam_programs.thesis.studies.thesis import MASSES, Settings, references, thesis_settings
 from hermite_fe import HermiteFE, resolution
 from hermite_fe.constraints import ContactLaw
 from hermite_fe.model import beam_model
@@ -65,22 +65,17 @@ def every_step(
 
 
 @functools.cache
-def thesis_run(curvature: float, duration: float, **changes: Any) -> tuple[ImpactHistory, Steps]:
-    """One run with the thesis's settings but for ``changes`` (fields of :class:`.Settings`)."""
-    given = case(curvature, duration)
-    settings = thesis_settings(given.impact, given.end_time).replace(**changes)
-    return every_step(given.impact, given.end_time, settings.method(), saved_times(given.end_time))
-
-
-def thesis_history(curvature: float, duration: float, **changes: Any) -> ImpactHistory:
-    """Its saved instants."""
-    return thesis_run(curvature, duration, **changes)[0]
+def stepped(impact: Impact, end_time: float, settings: Settings) -> Outcome:
+    """A run of the Hermite path until ``end_time``, s, with its history and the reaction of every step."""
+    history, steps = every_step(impact, end_time, settings.method(), saved_times(end_time))
+    return outcome_of(history, "", steps=steps, record=history)
 
 
 def thesis(label: str, curvature: float, duration: float, **changes: Any) -> Outcome:
-    """The run reduced to its curves, with the reaction of every step."""
-    history, steps = thesis_run(curvature, duration, **changes)
-    return outcome_of(history, label, steps=steps)
+    """One run with the thesis's settings but for ``changes`` (fields of :class:`.Settings`)."""
+    given = case(curvature, duration)
+    settings = thesis_settings(given.impact, given.end_time).replace(**changes)
+    return replace(stepped(given.impact, given.end_time, settings), label=label)
 
 
 @functools.cache

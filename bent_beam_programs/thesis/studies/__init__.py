@@ -21,10 +21,8 @@ from bent_beam_programs.thesis.studies import conditioning, first_order_case, nu
 from bent_beam_programs.thesis.studies.base import Study, StudyResult, outcomes_of
 from bent_beam_programs.thesis.studies.of_methods import CONCLUSION, draw_methods, runs_of_methods
 from bent_beam_programs.thesis.studies.outcome import MEASURES, Outcome
-from bent_beam_programs.thesis.studies.thesis import Progress, Variant, run_variants
+from bent_beam_programs.thesis.studies.thesis import Progress, run_variants
 from comparison.store import write_atomically
-
-__all__ = ["STUDIES", "Study", "StudyResult", "run_study"]
 
 SAME = 30  # characters of a warning that tell its kind: its numbers differ from run to run
 
@@ -57,7 +55,7 @@ def run_study(
         raise ValueError("beam.curvature must be positive for a study (got 0.0): a flat beam meets the wall at once")
     study, heads = STUDIES[name], {"label": STUDIES[name].heading}
     if methods:
-        outcomes = _on_methods(study, case, methods, refines, jobs, progress)
+        outcomes = run_variants(runs_of_methods(study.vary, case, methods, refines), jobs=jobs, progress=progress)
         heads = {"label": "method", **({"refine": "refine"} if set(refines) != {1.0} else {}), "setting": study.heading}
     else:
         outcomes = outcomes_of(study, case, jobs=jobs, progress=progress)
@@ -84,15 +82,6 @@ def run_study(
         except OSError as error:  # the answer is worth more than its files
             result.problem = f"out: {error}"
     return result
-
-
-def _on_methods(
-    study: Study, case: Case, methods: Sequence[Method], refines: Sequence[float], jobs: int, progress: Progress | None
-) -> list[Outcome]:
-    asked = runs_of_methods(study.vary, case, methods, refines)
-    runs = [one for one in asked if isinstance(one, Variant)]
-    done = iter(run_variants(runs, jobs=jobs, progress=progress))
-    return [next(done) if isinstance(one, Variant) else one for one in asked]
 
 
 def _warnings(outcomes: Sequence[Outcome]) -> list[str]:

@@ -3,26 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from itertools import product
 from typing import Any
 
 from bent_beam.cases import Case
 from bent_beam.meshes import ScaleFreeMesh, SquareMesh
-from bent_beam.method import Method
 from bent_beam_programs.thesis.studies.base import Study
 from bent_beam_programs.thesis.studies.exact import Exact
-from bent_beam_programs.thesis.studies.of_methods import (
-    NotVaried,
-    Setting,
-    grown,
-    has_part,
-    kinds_of,
-    of_kind,
-    part_of,
-    resolution,
-    with_field,
-    with_parts,
-)
+from bent_beam_programs.thesis.studies.of_methods import MethodOnCase, NotVaried, Setting, of_kind
 from bent_beam_programs.thesis.studies.thesis import MASSES, POINTS, Runs, Settings, Variant, thesis_settings, varied
 from comparison.readable import readable
 from hermite_fe.contacts import impact_coupling
@@ -46,17 +35,14 @@ def time_step_variants(case: Case) -> list[Variant]:
     return varied(case, base, {f"h = {readable(h, 2)} s": (h, {"time_step": h}) for h in steps})
 
 
-def time_step_vary(method: Method, case: Case) -> list[Setting]:
+def time_step_vary(on: MethodOnCase) -> list[Setting]:
     """Steps so many times longer; the mesh stays."""
-    integrator = part_of(method, "integrator", case, filled=True)
+    integrator = on.part("integrator", filled=True)
     steps = {name: value for name in STEPS if (value := getattr(integrator, name, None)) is not None}
     if not steps:
         raise NotVaried(f"its integrator ({type(integrator).__name__}) takes its step from the mesh")
-    fixed = with_parts(method, integrator=integrator)
-    return [
-        Setting(f"h × {f:g}", with_field(fixed, "integrator", case, **{n: f * v for n, v in steps.items()}), f)
-        for f in STEP_FACTORS
-    ]
+    longer = {f: replace(integrator, **{name: f * value for name, value in steps.items()}) for f in STEP_FACTORS}
+    return [Setting(f"h × {f:g}", on.with_parts(integrator=one), f) for f, one in longer.items()]
 
 
 TIME_STEP = Study("time-step", "time step", time_step_variants, time_step_vary)
@@ -99,11 +85,10 @@ def mesh_variants(case: Case) -> list[Variant]:
     return varied(case, base, runs)
 
 
-def mesh_vary(method: Method, case: Case) -> list[Setting]:
+def mesh_vary(on: MethodOnCase) -> list[Setting]:
     """Elements so many times longer, then other growths; the steps stay."""
-    mesh, laid_on = resolution(method, case)
-    lengths = [Setting(f"Δx × {f:g}", laid_on(mesh.refined(1.0 / f)), f) for f in LENGTH_FACTORS]
-    return lengths + grown(method, case, GROWTHS)
+    mesh = on.part("mesh", filled=True)
+    return [Setting(f"Δx × {f:g}", on.laid_on(mesh.refined(1.0 / f)), f) for f in LENGTH_FACTORS] + on.grown(GROWTHS)
 
 
 MESH = Study("mesh", "mesh", mesh_variants, mesh_vary)
@@ -134,20 +119,19 @@ def far_field_variants(case: Case) -> list[Variant]:
     return varied(case, base, runs, half)
 
 
-def far_field_vary(method: Method, case: Case) -> list[Setting]:
+def far_field_vary(on: MethodOnCase) -> list[Setting]:
     """The method as it is, on half the beam, and, where it has them, with other growths, viscosities and absorbers."""
-    half = case.impact.replace(length=0.5 * case.impact.length)
-    found = [Setting("as it is", method), Setting("half the length", method, impact=half)]
-    if has_part(method, "mesh"):
-        found += grown(method, case, FAR_GROWTHS)
+    half = on.case.impact.replace(length=0.5 * on.case.impact.length)
+    found = [Setting("as it is", on.method), Setting("half the length", on.method, impact=half)]
+    if on.has("mesh"):
+        found += on.grown(FAR_GROWTHS)
     for name in ABSORBERS:
-        if has_part(method, name) and hasattr(part_of(method, name, case), "viscosity"):
-            found += [Setting(f"viscosity {v:g}", with_field(method, name, case, viscosity=v), v) for v in (0.0, 0.3)]
-    if has_part(method, "far_field"):
-        part = part_of(method, "far_field", case)
-        for name, kind in kinds_of(method, "far_field").items():
-            if kind is not type(part):
-                found.append(Setting(name, with_parts(method, far_field=of_kind(kind, part))))
+        if on.has(name) and hasattr(on.part(name), "viscosity"):
+            found += on.over(name, "viscosity", "viscosity {:g}", (0.0, 0.3))
+    if on.has("far_field"):
+        part, kinds = on.part("far_field"), on.kinds("far_field")
+        others = {name: kind for name, kind in kinds.items() if kind is not type(part)}
+        found += [Setting(name, on.with_parts(far_field=of_kind(kind, part))) for name, kind in others.items()]
     return found
 
 
@@ -182,13 +166,13 @@ def contact_point_variants(case: Case) -> list[Variant]:
     return varied(case, base, runs)
 
 
-def contact_point_vary(method: Method, case: Case) -> list[Setting]:
+def contact_point_vary(on: MethodOnCase) -> list[Setting]:
     """Every contact discretisation that the method knows, with every mass matrix that it knows."""
-    names = ["contact", *(["mass"] if has_part(method, "mass") else [])]
+    names = ["contact", *(["mass"] if on.has("mass") else [])]
     found = []
-    for chosen in product(*(kinds_of(method, name).items() for name in names)):
-        parts = {name: of_kind(kind, part_of(method, name, case)) for name, (_, kind) in zip(names, chosen)}
-        found.append(Setting(", ".join(kind for kind, _ in chosen), with_parts(method, **parts)))
+    for chosen in product(*(on.kinds(name).items() for name in names)):
+        parts = {name: of_kind(kind, on.part(name)) for name, (_, kind) in zip(names, chosen)}
+        found.append(Setting(", ".join(kind for kind, _ in chosen), on.with_parts(**parts)))
     return found
 
 
@@ -210,8 +194,8 @@ def restitution_variants(case: Case) -> list[Variant]:
     return varied(case, thesis_settings(case.impact, case.end_time), runs)
 
 
-def restitution_vary(method: Method, case: Case) -> list[Setting]:
-    return [Setting(f"restitution {e:g}", with_field(method, "contact", case, restitution=e), e) for e in COEFFICIENTS]
+def restitution_vary(on: MethodOnCase) -> list[Setting]:
+    return on.over("contact", "restitution", "restitution {:g}", COEFFICIENTS)
 
 
 RESTITUTION = Study("restitution", "restitution", restitution_variants, restitution_vary)
@@ -241,16 +225,16 @@ def damping_variants(case: Case) -> list[Variant]:
     return varied(case, thesis_settings(case.impact, case.end_time), runs)
 
 
-def damping_vary(method: Method, case: Case) -> list[Setting]:
+def damping_vary(on: MethodOnCase) -> list[Setting]:
     """The integrator's own damping, as the ρ∞ of the same high-frequency amplification."""
-    integrator = part_of(method, "integrator", case)
+    integrator = on.part("integrator")
     name = next((n for n in DAMPS if hasattr(integrator, n)), None)
     if name is None:
         raise NotVaried(f"its integrator ({type(integrator).__name__}) has no damping to vary ({', '.join(DAMPS)})")
     if getattr(integrator, "beta", None) is not None:
         raise NotVaried(f"its integrator sets beta = {integrator.beta!r}, which gamma alone does not follow")
     return [
-        Setting(f"ρ∞ = {radius:g}", with_field(method, "integrator", case, **{name: DAMPS[name](radius)}), radius)
+        Setting(f"ρ∞ = {radius:g}", on.with_field("integrator", **{name: DAMPS[name](radius)}), radius)
         for radius in RADII
     ]
 

@@ -6,7 +6,7 @@ from bent_beam.cases import Case
 from bent_beam.impact import Impact
 from bent_beam.method import Method
 from bent_beam_programs.thesis.studies.base import Study
-from bent_beam_programs.thesis.studies.of_methods import Setting, kinds_of, with_field, with_parts
+from bent_beam_programs.thesis.studies.of_methods import MethodOnCase, Setting
 from bent_beam_programs.thesis.studies.thesis import Variant, references
 from exudyn_models import CONTACTS, ELEMENTS, INTEGRATORS, ExudynModel
 from exudyn_models.geometry import GEOMETRIES
@@ -55,13 +55,12 @@ def penalty_variants(case: Case) -> list[Variant]:
     ]
 
 
-def penalty_vary(method: Method, case: Case) -> list[Setting]:
+def penalty_vary(on: MethodOnCase) -> list[Setting]:
     """Stiffness and damping of the method's contact, in units of its elements' own."""
-    return [Setting("as it is", method)] + [
-        Setting(f"{symbol} = {v:g}", with_field(method, "contact", case, **{name: v}), v)
-        for symbol, (name, tried) in TRIED.items()
-        for v in tried
-    ]
+    found = [Setting("as it is", on.method)]
+    for symbol, (name, tried) in TRIED.items():
+        found += on.over("contact", name, f"{symbol} = {{:g}}", tried)
+    return found
 
 
 PENALTY = Study("penalty", "penalty", penalty_variants, penalty_vary)
@@ -96,11 +95,11 @@ def amplitude_variants(case: Case) -> list[Variant]:
     ]
 
 
-def amplitude_vary(method: Method, case: Case) -> list[Setting]:
+def amplitude_vary(on: MethodOnCase) -> list[Setting]:
     """Every geometry that the method knows, over ever longer times."""
-    impact, kinds = cut(case.impact), kinds_of(method, "geometry")
+    impact, kinds = cut(on.case.impact), on.kinds("geometry")
     return [
-        Setting(f"{name}, τ = {tau:g}", with_parts(method, geometry=kind()), tau**0.5, impact, tau * impact.time_scale)
+        Setting(f"{name}, τ = {tau:g}", on.with_parts(geometry=kind()), tau**0.5, impact, tau * impact.time_scale)
         for tau in DURATIONS
         for name, kind in kinds.items()
     ]
@@ -132,8 +131,8 @@ def friction_variants(case: Case) -> list[Variant]:
     return found
 
 
-def friction_vary(method: Method, case: Case) -> list[Setting]:
-    return [Setting(f"friction {f:g}", with_field(method, "contact", case, friction=f), f) for f in COEFFICIENTS]
+def friction_vary(on: MethodOnCase) -> list[Setting]:
+    return on.over("contact", "friction", "friction {:g}", COEFFICIENTS)
 
 
 FRICTION = Study("friction", "contact", friction_variants, friction_vary)

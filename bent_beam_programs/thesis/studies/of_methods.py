@@ -10,6 +10,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -57,55 +58,79 @@ class Setting:
     end_time: float | None = None
 
 
-Vary = Callable[[Method, Case], Sequence[Setting]]
+@dataclass(frozen=True)
+class MethodOnCase:
+    """A method and the case that it runs: what a study varies."""
+
+    method: Any
+    case: Case
+
+    def has(self, name: str) -> bool:
+        """Whether the method has a part of this name."""
+        return name in getattr(self.method, "PARTS", {})
+
+    def kinds(self, name: str) -> Mapping[str, type]:
+        """The kinds of a part that the method knows. Raises :class:`NotVaried` where it has no such part."""
+        if not self.has(name):
+            raise NotVaried(f"{self.method.path} has no {name}")
+        return dict(self.method.PARTS[name])
+
+    @cached_property
+    def chosen(self) -> Any:
+        """The method with all that it leaves open chosen for the case."""
+        return chosen_for(self.method, self.case.impact, self.case.end_time)
+
+    def part(self, name: str, *, filled: bool = False) -> Any:
+        """A part as the method has it; where it is left open, of the kind that is chosen for the case.
+
+        filled : with the part's own open fields chosen too. Raises :class:`NotVaried` where there is none.
+        """
+        self.kinds(name)
+        own = getattr(self.method, name)
+        if own is not None and not filled:
+            return own
+        chosen = getattr(self.chosen, name)
+        if chosen is None:
+            raise NotVaried(f"{self.method.path} chooses its {name} in the run: name one")
+        if filled:
+            return chosen
+        try:
+            return type(chosen)()
+        except TypeError:  # it has no defaults
+            return chosen
+
+    def with_parts(self, **parts: Any) -> Method:
+        """A copy of the method with other parts."""
+        changed: Method = dataclasses.replace(self.method, **parts)
+        return changed
+
+    def with_field(self, name: str, **values: Any) -> Method:
+        """A copy with fields of one part changed. Raises :class:`NotVaried` for a field that the part lacks."""
+        part = self.part(name)
+        for field in values.keys() - {f.name for f in dataclasses.fields(part)}:
+            raise NotVaried(f"its {name} ({type(part).__name__}) has no {field}")
+        return self.with_parts(**{name: dataclasses.replace(part, **values)})
+
+    def over(self, name: str, field: str, words: str, values: Sequence[float]) -> list[Setting]:
+        """One field of a part at several values, which are named by ``words``."""
+        return [Setting(words.format(v), self.with_field(name, **{field: v}), v) for v in values]
+
+    def laid_on(self, mesh: Mesh) -> Method:
+        """A copy with another mesh and the steps that the method has with its own."""
+        steps = {"integrator": self.part("integrator", filled=True)} if self.has("integrator") else {}
+        return self.with_parts(mesh=mesh, **steps)
+
+    def grown(self, growths: Sequence[float]) -> list[Setting]:
+        """On meshes that grow by these factors outside the zone; none where the method's mesh does not grow."""
+        mesh = self.part("mesh", filled=True)
+        for name in ("growth_outside", "growth"):
+            if type(mesh) in MESHES.values() and getattr(mesh, name, None) is not None:
+                return [Setting(f"e = {e:g}", self.laid_on(dataclasses.replace(mesh, **{name: e})), e) for e in growths]
+        return []
+
+
+Vary = Callable[[MethodOnCase], Sequence[Setting]]
 """Settings of a study on a method; raises :class:`NotVaried`."""
-
-
-def has_part(method: Method, name: str) -> bool:
-    """Whether a method has a part of this name."""
-    return name in getattr(method, "PARTS", {})
-
-
-def kinds_of(method: Method, name: str) -> Mapping[str, type]:
-    """The kinds of a part that a method knows."""
-    if not has_part(method, name):
-        raise NotVaried(f"{method.path} has no {name}")
-    kinds: Mapping[str, type] = getattr(method, "PARTS")[name]  # noqa: B009
-    return kinds
-
-
-def part_of(method: Method, name: str, case: Case, *, filled: bool = False) -> Any:
-    """A part as the method has it; where it is left open, of the kind that is chosen for the case.
-
-    filled : with the part's own open fields chosen too.
-    """
-    kinds_of(method, name)
-    own = getattr(method, name)
-    if own is not None and not filled:
-        return own
-    chosen = getattr(chosen_for(method, case.impact, case.end_time), name)
-    if chosen is None:
-        raise NotVaried(f"{method.path} chooses its {name} in the run: name one")
-    if filled:
-        return chosen
-    try:
-        return type(chosen)()
-    except TypeError:  # it has no defaults
-        return chosen
-
-
-def with_parts(method: Method, **parts: Any) -> Method:
-    """A copy with other parts."""
-    changed: Any = method
-    return dataclasses.replace(changed, **parts)
-
-
-def with_field(method: Method, name: str, case: Case, **values: Any) -> Method:
-    """A copy with fields of one part changed."""
-    part = part_of(method, name, case)
-    for field in values.keys() - {f.name for f in dataclasses.fields(part)}:
-        raise NotVaried(f"its {name} ({type(part).__name__}) has no {field}")
-    return with_parts(method, **{name: dataclasses.replace(part, **values)})
 
 
 def of_kind(kind: type, part: Any) -> Any:
@@ -113,25 +138,6 @@ def of_kind(kind: type, part: Any) -> Any:
     known = {f.name for f in dataclasses.fields(kind)}
     given = {f.name: getattr(part, f.name) for f in dataclasses.fields(part) if f.name in known}
     return kind(**{name: value for name, value in given.items() if value is not None})
-
-
-def resolution(method: Method, case: Case) -> tuple[Mesh, Callable[[Mesh], Method]]:
-    """The method's mesh, and a function that gives a copy with another mesh and the steps that it has with this one."""
-    mesh = part_of(method, "mesh", case, filled=True)
-    steps = {"integrator": part_of(method, "integrator", case, filled=True)} if has_part(method, "integrator") else {}
-    return mesh, lambda other: with_parts(method, mesh=other, **steps)
-
-
-def grown(method: Method, case: Case, growths: Sequence[float]) -> list[Setting]:
-    """The method with meshes that grow by these factors outside the zone; none where its mesh does not grow."""
-    mesh, laid_on = resolution(method, case)
-    if type(mesh) not in MESHES.values():
-        return []
-    changed: Any = mesh
-    for name in ("growth_outside", "growth"):
-        if getattr(mesh, name, None) is not None:
-            return [Setting(f"e = {e:g}", laid_on(dataclasses.replace(changed, **{name: e})), e) for e in growths]
-    return []
 
 
 def runs_of_methods(
@@ -150,17 +156,18 @@ def _runs(vary: Vary, case: Case, method: Method, factor: float) -> list[Variant
         if finer is None:
             reason = f"refine: {method.path} does not know how to be refined (got {factor:g})"
         elif not (reason := finer.refuses(case.impact) or ""):
-            return [_run(method.label, one, case, factor) for one in vary(finer, case)]
+            return [
+                Variant(
+                    method.label, one.impact or case.impact, one.end_time or case.end_time, one.method, one.value,
+                    setting=one.name, refine=factor,
+                )
+                for one in vary(MethodOnCase(finer, case))
+            ]  # fmt: skip
     except NotVaried as error:
         reason = f"not varied: {error}"
     except ANY_FAILURE as error:
         reason = str(error)
     return [failed(method.label, case.impact, None, reason, refine=factor, refused=True)]
-
-
-def _run(label: str, one: Setting, case: Case, factor: float) -> Variant:
-    impact, end = one.impact or case.impact, one.end_time or case.end_time
-    return Variant(label, impact, end, one.method, one.value, setting=one.name, refine=factor)
 
 
 def draw_methods(sheet: Sheet, heading: str, outcomes: Sequence[Outcome]) -> None:
@@ -178,8 +185,7 @@ def draw_methods(sheet: Sheet, heading: str, outcomes: Sequence[Outcome]) -> Non
                 points = [(settings.index(o.setting), abs(v)) for o in mine if (v := o.measures.get(name)) is not None]
                 if points:
                     x, y = np.array(points, float).T
-                    line: dict[str, Any] = {k: v for k, v in mark.items() if k != "label"} | {"ls": "-", "lw": 0.7}
-                    sheet.line(axis, x, np.maximum(y, SMALLEST), series=label, **line)
+                    sheet.line(axis, x, np.maximum(y, SMALLEST), series=label, **mark | {"ls": "-", "lw": 0.7})
             _decades(axis)
             axis.set_ylabel(title)
             axis.set_xticks(range(len(settings)), settings, rotation=45.0, ha="right", rotation_mode="anchor")

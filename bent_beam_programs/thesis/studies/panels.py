@@ -30,7 +30,6 @@ WINDOWS = 30  # means of a reaction
 TENTHS = (0.1, 0.9)  # of the filtered reaction, between which a band lies
 LINES = [style.COLOURS[c] for c in ("vermilion", "sky", "purple", "orange", "grey", "green", "blue")]
 """Colours of varied settings, those of the references last."""
-THEORY = {k: v for k, v in style.THEORY.items() if k != "label"}
 ROOT = (lambda v: np.sqrt(np.maximum(v, 0.0)), np.square)
 
 
@@ -88,7 +87,7 @@ def geometry(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome]) -> None:
     (sx, mx), (sy, my) = unit(edge, "m"), unit(high, "m")
     axis.set(xlabel=f"$x$  ({mx})", ylabel=f"deflection $y$  ({my})", xlim=(0.0, sx * edge))
     places = np.linspace(0.0, edge, 400)
-    sheet.line(axis, sx * places, -sy * exact.gap(places, end), series="theory", **THEORY)
+    sheet.line(axis, sx * places, -sy * exact.gap(places, end), series="theory", **style.THEORY)
     for o, line in runs:
         near = o.x <= edge
         kept = _thin(o.x[near], line)
@@ -107,16 +106,15 @@ def _over_time(
     theory: Callable[[Exact, Array], Array] | None,
     largest: Callable[[Exact, float], float] | None = None,
     root: bool = False,
-    cut: bool = False,
     bottom: float | None = 0.0,
     before: float = 0.0,
     thin: bool = False,
 ) -> None:
     """A quantity of every run over t, theory's on top.
 
-    name : of the SI unit. curve : times and values of a run. largest : value that sets the unit, if not the largest of
-    theory and runs. root : an axis of √t, along which marks are even. cut : the axis ends at ``largest``. before :
-    share of the run that is drawn before the first contact, in free flight. thin : where lines would hide one another.
+    name : of the SI unit. curve : times and values of a run. largest : value that sets the unit and ends
+    the axis, if not the largest of theory and runs. root : an axis of √t, along which marks are even. before : share of
+    the run that is drawn before the first contact, in free flight. thin : where lines would hide one another.
     """
     runs = [(o, line, *curve(o, line)) for o, line in _finished(outcomes)]
     exact, end = runs[0][0].exact, float(runs[0][0].time[-1])
@@ -136,11 +134,11 @@ def _over_time(
             line = {**line, "lw": 0.6}
         sheet.line(axis, st * t[kept], sy * y[kept], series=o.label, **line)
     if theory is not None:
-        sheet.line(axis, st * times, sy * values, series="theory", **THEORY)
+        sheet.line(axis, st * times, sy * values, series="theory", **style.THEORY)
     if root:
         axis.set_xscale("function", functions=ROOT)
     axis.set_xlim(-before * st * end, st * end)
-    axis.set_ylim(bottom, sy * top if cut else None)
+    axis.set_ylim(bottom, sy * top if largest else None)
 
 
 def _front(o: Outcome, line: dict[str, Any]) -> tuple[Array, Array]:
@@ -153,7 +151,7 @@ contact_length: Panel = partial(_over_time, label=r"$\lambda_c$", name="m", curv
 """λ_c over t."""
 
 reaction: Panel = partial(
-    _over_time, label="reaction of one side", name="N", theory=Exact.side_reaction, cut=True,
+    _over_time, label="reaction of one side", name="N", theory=Exact.side_reaction,
     curve=lambda o, line: o.reaction(MARKS if line["marker"] else WINDOWS),
     largest=lambda exact, end: 1.2 * float(exact.side_reaction(0.02 * end)),
 )  # fmt: skip
@@ -172,7 +170,7 @@ strain = partial(
 """Strain energy of the whole beam over t; ``theory`` = None leaves its line out where it is far above."""
 
 filtered: Panel = partial(
-    _over_time, label="reaction of one side", name="N", theory=Exact.side_reaction, cut=True, thin=True,
+    _over_time, label="reaction of one side", name="N", theory=Exact.side_reaction, thin=True,
     curve=lambda o, line: (o.steps.time, o.steps.filtered()) if o.steps else o.reaction(MARKS),
     largest=lambda exact, end: 2.4 * float(exact.side_reaction(0.02 * end)),
 )  # fmt: skip

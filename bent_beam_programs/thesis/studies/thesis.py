@@ -176,7 +176,11 @@ def _outcome(variant: Variant) -> Outcome:
         return variant.lost(f"no number can be estimated from this run: {error}")
 
 
-def run_variants(variants: Sequence[Variant], *, jobs: int = 1, progress: Progress | None = None) -> list[Outcome]:
-    """Run all, on ``jobs`` processes; outcomes in order."""
-    calls = [(v,) for v in variants]
-    return run_all(_outcome, calls, jobs=jobs, progress=progress, on_death=lambda i, why: variants[i].lost(why))
+def run_variants(
+    asked: Sequence[Variant | Outcome], *, jobs: int = 1, progress: Progress | None = None
+) -> list[Outcome]:
+    """Run all, on ``jobs`` processes; outcomes in order, those among them that were known before."""
+    runs = [one for one in asked if isinstance(one, Variant)]
+    calls = [(run,) for run in runs]
+    done = iter(run_all(_outcome, calls, jobs=jobs, progress=progress, on_death=lambda i, why: runs[i].lost(why)))
+    return [next(done) if isinstance(one, Variant) else one for one in asked]
