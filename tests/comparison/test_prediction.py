@@ -11,7 +11,6 @@ from histories import ROD
 
 from bent_beam import Impact
 from bent_beam.cases import Case, load_case
-from comparison.bouncing import bounce
 from comparison.doubts import doubts
 from comparison.predict_text import prediction_text, wall_lines
 from comparison.predicting import CHECKED, COMPARED, LATEST, predict_case
@@ -90,28 +89,11 @@ def test_a_beam_of_no_damping_keeps_waves_that_grid_viscosity_absorbs_and_its_ba
     assert damped[0]["reaction"].spread < 0.01 * damped[0]["reaction"].known
 
 
-def test_predict_and_bounce_give_a_rod_s_whole_impact_to_the_last_digit(tmp_path: Path) -> None:
-    """Under its own weight, and on a wall that gives way: value and bar alike, from the same runs."""
-    (tmp_path / "rod.toml").write_text(ROD)
-    for one in ("impact.gravity=9.81", "wall.stiffness=1e8"):
-        case = load_case(tmp_path / "rod.toml", [one, *MESH])
-        document = predict_case(case, [1e-4, 1e-3]).to_dict()
-        other = bounce(case, case.method("hermite")).to_dict()
-        whole, si = document["whole_impact"], other["si"]
-        assert whole["restitution"] == other["restitution"]
-        assert {**whole["peak_stress"], "unit": "Pa"} == other["peak_stress"]
-        rigid = "gravity" in one
-        assert (whole["peak_force"] is None) == rigid
-        for name in ("peak_moment", "last_contact") if rigid else ("peak_moment", "last_contact", "peak_force"):
-            assert whole[name].items() <= si[name].items()
-        assert whole["span"] == other["span"] and whole["span"][1] > 2.0 * whole["last_contact"]["value"]
-        assert json.loads(json.dumps(document, allow_nan=False)) == document
-
-
 def test_a_rod_under_its_weight_leaves_with_what_is_known_of_it(tmp_path: Path) -> None:
     (tmp_path / "rod.toml").write_text(ROD)
     case = load_case(tmp_path / "rod.toml", ["impact.gravity=9.81", *MESH])
     document = predict_case(case, [1e-4, 1e-3]).to_dict()
+    assert json.loads(json.dumps(document, allow_nan=False)) == document
     restitution, largest = (document["whole_impact"][name] for name in ("restitution", "peak_stress"))
     assert restitution["value"] == pytest.approx(0.632, abs=2e-3) and restitution["error"] < 1e-2
     early, late = (row["simulation"]["peak_stress"] for row in document["times"])

@@ -44,17 +44,6 @@ def test_the_largest_force_of_a_nearly_straight_beam_is_that_of_oscillators_side
     assert peaks.pressure == pytest.approx(pressure, rel=0.02)
 
 
-@pytest.mark.verify
-@pytest.mark.parametrize("kappa", [0.02, 0.5, 10.0])
-@pytest.mark.parametrize("ratio", [0.0, 0.5, 2.0])
-def test_elements_and_steps_converge(kappa: float, ratio: float) -> None:
-    """Halved elements and steps move the largest force by less than a thousandth; the stiffness stays."""
-    impact = on_springs(kappa, ratio)
-    found = [wall_peaks(HermiteFE(refine=r).simulate(impact, end_time=5.0, save=9)) for r in (0.5, 1.0, 2.0)]
-    coarse, usual, fine = (peaks.force for peaks in found if peaks is not None)
-    assert abs(fine - usual) < 5e-4 * fine and abs(fine - coarse) < 2e-3 * fine
-
-
 @pytest.mark.parametrize(("share", "damping"), [(0.0, 0.7), (0.8, 0.2)])
 def test_a_partly_covered_element_pushes_as_its_penetration_integrated_point_by_point(share, damping) -> None:
     """share : σ of shear, by which the cubic's slopes differ from the sections' angles."""

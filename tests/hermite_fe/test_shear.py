@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from hermite_parts import dense
 from numpy.polynomial import Polynomial
 from numpy.polynomial.legendre import leggauss
 from scipy.linalg import eigh
@@ -28,12 +29,6 @@ BEAM = Impact.whole_beam(0.5, relative_damping=3e-3, shear_length=S, shear_ratio
 
 def sheared(nodes: np.ndarray, s: float = S, g: float = G) -> HermiteBeam:
     return HermiteBeam(nodes, 1.0, 1.0, s**-2, g * s**2)
-
-
-def dense(bands: np.ndarray) -> np.ndarray:
-    n = bands.shape[1]
-    full = sum(np.diag(bands[m, : n - m], -m) for m in range(4))
-    return full + np.tril(full, -1).T
 
 
 def test_element_matrices_are_integrals_of_the_shape_functions_of_friedman_and_kosmatka() -> None:

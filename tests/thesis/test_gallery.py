@@ -268,11 +268,3 @@ def test_the_beam_without_the_wall_is_drawn_over_a_curved_wall_too() -> None:
         assert np.allclose(over_curved.free, over_flat.free, rtol=0.0, atol=1e-12)
         assert np.allclose(over_curved.y, over_flat.y, rtol=0.0, atol=1e-12)
         assert np.all(over_flat.free[far] < 0.0)
-
-
-@SLOW
-def test_the_animation_moves(tmp_path: Path) -> None:
-    draw_all(["animation"], tmp_path)
-    assert (tmp_path / "animation.gif").stat().st_size > 50_000
-    fronts = [float(r["half contact length (m)"]) for r in csv.DictReader((tmp_path / "animation.csv").open())]
-    assert fronts == sorted(fronts) and fronts[-1] > 0.0
