@@ -80,9 +80,7 @@ LONG = [
 
 
 @pytest.mark.parametrize(("page", "all_of_it"), [*QUICK, *LONG])
-def test_commands_and_snippets_run(
-    page: Path, all_of_it: bool, folder: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_commands_and_snippets_run(page, all_of_it, folder, capsys):
     """One after the other, the names of snippets shared."""
     space: dict[str, object] = {"__name__": "__docs__"}
     for block in blocks(page):

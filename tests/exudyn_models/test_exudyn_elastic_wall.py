@@ -1,7 +1,5 @@
 """A wall that gives way: its springs and dashpots are the wall's own."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -39,9 +37,7 @@ def test_springs_give_back_what_they_took_and_dashpots_take_energy_and_push_earl
 
 
 @pytest.mark.parametrize(("ratio", "refine", "exact"), [(0.0, 0.4, 4.596), (0.0, 0.8, 4.596), (1.0, 0.8, 3.392)])
-def test_the_largest_force_before_an_elastic_wall_does_not_depend_on_the_mesh(
-    ratio: float, refine: float, exact: float
-) -> None:
+def test_the_largest_force_before_an_elastic_wall_does_not_depend_on_the_mesh(ratio, refine, exact):
     """F = f V₀√μ(EI k)^¼ with f(0.5, ζ) of the theory; a penalty of the elements' own would grow with 1/Δx, and
     dashpots of whole elements push 2.6 % more."""
     force = run(0.5, ratio, refine=refine).array("peak_force")[-1] / STIFFNESS**0.25

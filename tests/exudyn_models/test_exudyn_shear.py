@@ -2,8 +2,6 @@
 
 Units half length = EI = μ = V₀ = 1; l_s the shear length, g = κ_sG/E."""
 
-from __future__ import annotations
-
 import exudyn as exu
 import numpy as np
 import pytest

@@ -1,7 +1,5 @@
 """The compiled contact problem and factorisation against truth: every active set tried densely, and LAPACK."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hermite_parts import dense

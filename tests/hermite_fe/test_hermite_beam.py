@@ -1,8 +1,6 @@
 """Facts of the element (thesis A.6, 3.1.5, 3.1.8), of the validation beams (3.10–3.15), of masses, and of the beam as
 a system: axial force, damping of the material, curved walls."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

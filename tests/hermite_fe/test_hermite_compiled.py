@@ -1,7 +1,5 @@
 """Compiled code on disk: an upgraded package never runs yesterday's code; a torn or missing file costs time alone."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

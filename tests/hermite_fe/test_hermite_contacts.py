@@ -1,8 +1,6 @@
 """Facts of unilateral contact along the beam: complementarity, symmetry, momentum, energy, and what the hold
 does."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

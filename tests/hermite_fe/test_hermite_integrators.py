@@ -1,8 +1,6 @@
 """Every integrator on systems that are no beams: a bouncing ball, an oscillator against a stop, two masses; and the
 integrator that the guide writes."""
 
-from __future__ import annotations
-
 import math
 import re
 from functools import partial

@@ -1,7 +1,5 @@
 """``simulate``: the thesis's numbers with nothing set by hand, and what a user may get wrong."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -37,9 +35,7 @@ def scaled(history: ImpactHistory) -> tuple[NDArray[np.float64], NDArray[np.floa
         (25.0, 0.0, 1.0, 1e-3),  # one point, that bears ν
     ],
 )
-def test_auto_finds_the_leading_order_of_a_case_in_si_units(
-    curvature: float, lambda0: float, r0: float, within: float
-) -> None:
+def test_auto_finds_the_leading_order_of_a_case_in_si_units(curvature, lambda0, r0, within):
     history = simulate(Impact(1.0, 1.0, 50.0, curvature, 20.0))
     assert history.warnings == [] and history.completed
     found = leading_order(moments(history))

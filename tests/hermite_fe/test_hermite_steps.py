@@ -1,8 +1,6 @@
 """Steps of a beam by every integrator: the energy account, which shows what is falsified; no subnormal numbers; nothing
 strange for odd steps."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from itertools import chain
 from typing import Any

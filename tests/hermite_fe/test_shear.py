@@ -2,8 +2,6 @@
 
 Units half length = EI = μ = V₀ = 1; s = l_s, the shear length, g = κ_sG/E."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hermite_parts import dense

@@ -59,7 +59,7 @@ def test_first_release_and_impulse_until_then_are_the_stopped_beam_s(integrator,
 )
 def test_restitution_of_a_damped_beam_is_one_number_whatever_the_scheme(
     integrator, kappa, damping, elements, restitution, within
-) -> None:
+):
     method = HermiteFE(mesh=UniformMesh(1.0 / elements), integrator=integrator)
     history = method.simulate_to_separation(Impact.whole_beam(kappa, relative_damping=damping))
     found = whole_impact(history)
@@ -190,7 +190,7 @@ def between_walls(path: str, elements: int, kappa: float, damping: float, distan
 )
 def test_each_hit_between_two_walls_gives_the_beam_its_impulse(
     path, elements, kappa, damping, distance, end, least, closes
-) -> None:
+):
     history = between_walls(path, elements, kappa, damping, distance, end)
     found = hits(history)
     assert len(found) >= least and [hit.wall for hit in found[:2]] == ["front", "opposite"]

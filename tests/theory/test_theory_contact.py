@@ -130,9 +130,7 @@ def test_tension_in_free_flight_is_exact(ratio: float) -> None:
 
 
 @given(ratio=st.floats(1e-8, 1.0, exclude_max=True), axial=COEFFICIENTS, psi=COEFFICIENTS)
-def test_a_zone_at_rest_without_reaction_is_continuous_whatever_the_rounding(
-    ratio: float, axial: float, psi: float
-) -> None:
+def test_a_zone_at_rest_without_reaction_is_continuous_whatever_the_rounding(ratio, axial, psi):
     alpha = -(psi + axial * ratio) * (1.0 + 4.0 * np.finfo(float).eps)
     found = contact_parameters(ratio, alpha, psi, axial=axial)
     assert (found.regime, found.uniform_reaction) == ("continuous", 0.0)

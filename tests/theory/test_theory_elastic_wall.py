@@ -39,9 +39,7 @@ def largest_force_by_modes(
 @pytest.mark.parametrize(
     ("kappa_over_nu", "damping_ratio", "dx", "agree"), [(0.5, 0.0, 0.04, 3e-4), (2.0, 0.25, 0.01, 4e-3)]
 )
-def test_largest_force_is_that_of_the_beams_modes(
-    kappa_over_nu: float, damping_ratio: float, dx: float, agree: float
-) -> None:
+def test_largest_force_is_that_of_the_beams_modes(kappa_over_nu, damping_ratio, dx, agree):
     found = peak_force(kappa_over_nu, damping_ratio)
     modes = largest_force_by_modes(kappa_over_nu, damping_ratio, 1.1 * found.time, 15.0, dx)
     assert found.value == pytest.approx(modes, rel=agree)

@@ -106,9 +106,7 @@ def test_convolution_equals_the_integral_as_it_stands(ratio: float, loads: tuple
     xi=st.floats(0.05, 4.0),
     tau=st.floats(0.2, 0.6),
 )
-def test_slope_curvature_and_velocity_are_derivatives_of_the_deflection(
-    ratio: float, loads: tuple[float, ...], xi: float, tau: float
-) -> None:
+def test_slope_curvature_and_velocity_are_derivatives_of_the_deflection(ratio, loads, xi, tau):
     parameters = contact_parameters(ratio, *loads[:3], axial=loads[3])
     fields, h = ImpactFields(parameters, epsilon=0.01), 1e-3
     p = fields.parameters

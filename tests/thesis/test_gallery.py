@@ -1,7 +1,5 @@
 """The gallery: every number of the thesis is there, known points of the curves are in the CSV files; the animation."""
 
-from __future__ import annotations
-
 import csv
 import dataclasses
 import functools
@@ -77,8 +75,8 @@ def test_every_figure_and_table_is_listed_in_the_order_of_the_thesis_and_in_the_
 
 
 def test_pictures_and_data_are_written_and_again_when_a_file_is_missing_or_sources_or_caption_changed(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+    tmp_path, monkeypatch
+):
     def entries(*names: str) -> dict[str, dict[str, Any]]:
         found, failures = draw_all(names, tmp_path)
         assert failures == []
@@ -110,9 +108,7 @@ def test_every_item_has_data(name: str) -> None:
     assert name == "table-numbers" or len(cells(name)) >= (2 if name == "extra-uniform" else 3)  # it has two lengths
 
 
-def test_unknown_ids_and_formats_are_refused_and_a_failing_item_leaves_the_others(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_unknown_ids_and_formats_are_refused_and_a_failing_item_leaves_the_others(tmp_path, monkeypatch):
     with pytest.raises(ValueError, match=r"fig-9\.9"):
         draw_all(["fig-9.9"], tmp_path)
     with pytest.raises(ValueError, match="format"):
@@ -170,9 +166,7 @@ ZONES = [("fig-2.8", "abef", "free motion", 1e-8), ("fig-2.13", "ab", "free moti
 
 
 @pytest.mark.parametrize(("name", "panels", "series", "within"), [ZONES[0], pytest.param(*ZONES[1], marks=SLOW)])
-def test_free_motion_and_fast_layer_agree_in_the_contact_zone(
-    name: str, panels: str, series: str, within: float
-) -> None:
+def test_free_motion_and_fast_layer_agree_in_the_contact_zone(name, panels, series, within):
     for panel in panels:
         a, free = curve(name, series, panel)
         off = np.abs(free - curve(name, "fast layer", panel)[1])

@@ -1,7 +1,5 @@
 """Studies: the theory they are compared with, what their runs show on small cases, the thesis's filter."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import dataclass, replace
 from pathlib import Path
