@@ -156,19 +156,6 @@ def test_arguments_broadcast_and_arrays_equal_scalars() -> None:
             assert getattr(found, name)[index] == pytest.approx(getattr(single, name), rel=1e-13)
 
 
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        ({"kappa_over_nu": 0.0}, r"kappa_over_nu must be positive and finite \(got 0.0\)"),
-        ({"kappa_over_nu": 0.5, "alpha": -1e200}, r"alpha must not exceed 1e\+100 in size \(got -1e\+200\)"),
-        ({"kappa_over_nu": 0.5, "alpha": np.nan}, r"alpha must be finite \(got nan\)"),
-    ],
-)
-def test_bad_input_is_named(arguments: dict[str, float], message: str) -> None:
-    with pytest.raises(ValueError, match=message):
-        contact_parameters(**arguments)
-
-
 @pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize("ratio", [1e-60, 0.5, 1e100])
 def test_nothing_overflows_up_to_the_largest_arguments(ratio: float) -> None:
