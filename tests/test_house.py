@@ -136,7 +136,6 @@ def test_nothing_reads_the_folder_that_sessions_share():
 
 
 def alone(code):
-    """Run ``code`` in a fresh interpreter."""
     here = {"cwd": ROOT, "env": os.environ | {"PYTHONPATH": str(ROOT)}}
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, **here)
     assert done.returncode == 0, done.stderr[-2000:]

@@ -63,7 +63,6 @@ def agrees(cell, value, noise):
 
 
 def named(rows, first):
-    """The rows that a line's first cell names."""
     before, _, kappas = first.rpartition("κ/ν")
     ends = [float(Fraction(number)) for number in re.findall(r"\d+(?:[./]\d+)?", kappas)]
     return [row for row in rows if row["label"] == first] or [

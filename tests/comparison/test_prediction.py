@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from called import answered, refused
-from histories import ROD
+from histories import rod
 
 from bent_beam import Impact
 from bent_beam.cases import Case, load_case
@@ -22,7 +22,6 @@ from theory.stopped_beam import StoppedBeam
 
 CASES = Path(__file__).resolve().parents[2] / "cases"
 K10 = str(CASES / "thesis_K10.toml")
-MESH = ("mesh.kind=uniform", "mesh.element_length=0.016")  # of the rod: coarser than it would be chosen
 
 
 def case_of(impact: Impact) -> Case:
@@ -90,8 +89,7 @@ def test_a_beam_of_no_damping_keeps_waves_that_grid_viscosity_absorbs_and_its_ba
 
 
 def test_a_rod_under_its_weight_leaves_with_what_is_known_of_it(tmp_path: Path) -> None:
-    (tmp_path / "rod.toml").write_text(ROD)
-    case = load_case(tmp_path / "rod.toml", ["impact.gravity=9.81", *MESH])
+    case = load_case(rod(tmp_path, element=0.016), ["impact.gravity=9.81"])
     document = predict_case(case, [1e-4, 1e-3]).to_dict()
     assert json.loads(json.dumps(document, allow_nan=False)) == document
     restitution, largest = (document["whole_impact"][name] for name in ("restitution", "peak_stress"))
@@ -106,8 +104,9 @@ def test_a_rod_under_its_weight_leaves_with_what_is_known_of_it(tmp_path: Path) 
 
 def test_a_damping_that_is_not_stated_is_answered_over_three_and_one_that_is_stated_once(tmp_path: Path) -> None:
     """The numbers are those of the largest stress; where damping is stated nothing else is run."""
-    (tmp_path / "rod.toml").write_text(ROD.replace("damping_ratio", "# damping_ratio"))
-    asked = ("bounce", tmp_path / "rod.toml", *(word for one in MESH for word in ("--set", one)))
+    file = rod(tmp_path, element=0.016)
+    file.write_text(file.read_text().replace("damping_ratio", "# damping_ratio"))
+    asked = ("bounce", file)
     found = answered(*asked)
     rows = found["over_damping"]
     assert [row["damping_ratio"] for row in rows] == [0.0002, 0.002, 0.02]

@@ -122,7 +122,6 @@ def without_digits(text: str) -> list[str]:
 
 
 def printed(cell: Any) -> list[str]:
-    """What a cell of a notebook printed."""
     return without_digits(
         "".join(o.text for o in cell.get("outputs", []) if o.output_type == "stream" and o.name == "stdout")
     )

@@ -143,21 +143,6 @@ def test_a_run_that_fails_keeps_its_partial_history() -> None:
     assert caught.value.step > 0
 
 
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        ({"end_time": 0.0}, r"end_time must be positive \(got 0.0\)"),
-        ({"end_time": float("nan")}, "end_time must be a finite number"),
-        ({"save": 1}, "save must be"),
-        ({"mesh": UniformMesh(1e-9)}, r"^mesh\.element_length is too small"),
-        ({"impact": Impact.dimensionless(0.5, epsilon_psi=1.0, length=40.0)}, "into the wall before the impact"),
-    ],
-)
-def test_bad_arguments_are_named(arguments: dict[str, object], message: str) -> None:
-    with pytest.raises(ValueError, match=message):
-        simulate(**({"impact": SHORT} | arguments))  # type: ignore[arg-type]
-
-
 def test_the_part_of_a_long_beam_that_is_modelled_grows_as_bending_spreads() -> None:
     early, late = (chosen_domain(SHORT.replace(length=1e4), time) for time in (0.01, 0.09))
     assert early is not None and late == pytest.approx(3.0 * early) and 10.0 < early / 0.1 < 50.0

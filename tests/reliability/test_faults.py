@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 from called import command, refused, started
-from histories import ROD
+from histories import rod
 
 from bent_beam import SimulationError
 from bent_beam.files import write_atomically
@@ -53,8 +53,7 @@ def kill_when(happened, process):
 @pytest.mark.verify
 def test_a_sweep_of_forty_rows_killed_twice_ends_with_the_same_rows(tmp_path):
     """Killed with all its workers at moments drawn from the seed; then a run that was kept is torn as well."""
-    case, numbers = tmp_path / "rod.toml", random.Random(f"{SEED} sweep")
-    case.write_text(ROD + '[mesh]\nkind = "uniform"\nelement_length = 0.1\n')
+    case, numbers = rod(tmp_path, element=0.1), random.Random(f"{SEED} sweep")
     words = ["sweep", case, "--vary", "impact.velocity=0.5:2:8", "--vary", "beam.damping_ratio=0.01:0.05:5", "--json"]
     whole, killed = tmp_path / "whole", tmp_path / "killed"
     for folder in (whole, killed):
