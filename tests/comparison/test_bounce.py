@@ -83,7 +83,7 @@ def test_a_single_run_that_ends_at_the_wall_is_told_with_the_numbers_that_it_ent
 
 
 def test_without_damping_a_seeded_band_takes_the_place_of_a_number(monkeypatch) -> None:
-    monkeypatch.setattr("hermite_fe.method.ELEMENTS", 50)
+    monkeypatch.setattr("hermite_fe.whole_beam.ELEMENTS", 50)
     told: list[float] = []
     impact = problem(2.0, 0.0)
     found = bounce(impact, COARSE, runs=2, save=500, seed=3, progress=told.append)
