@@ -67,6 +67,7 @@ FIRST_ORDER = [  # kappas, loads, method, error bars, share of max(|theory|, 1)
         (kappa, [(0, 0, 0, 1), (-kappa, 0, 0, 1)], SelfSimilarFE(), "drift", 3e-3)
         for kappa in (0.1, 0.15, 0.25, 0.35, 0.5, 0.65, 0.8)
     ),
+    *((kappa, [(-kappa, 0, 0, 1)], ExudynModel(), "drift", 0.03) for kappa in (0.1, 0.25, 0.5, 0.8)),
     (0.5, [(4, 0, 0)], ExudynModel(refine=0.5), "drift", 0.01),
     (0.07, [(-2, 0, 0, 3)], ExudynModel(), "drift", 0.02),  # a thin front off which the load lifts the zone
     (0.28, [(0, 1, 0)], ExudynModel(), "drift", 0.02),  # the far field would come to the wall

@@ -17,7 +17,6 @@ from bent_beam.files import write_atomically
 from comparison.store import RunStore
 from hermite_fe import HermiteFE
 
-FUZZ = bool(os.environ.get("FUZZ"))
 SEED = os.environ.get("FUZZ_SEED", "0")
 
 
