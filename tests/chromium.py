@@ -44,7 +44,6 @@ def opened(driver: Any, address: str, width: int = 1400) -> Any:
 
 
 def ask(browser: Any, script: str, *arguments: Any) -> Any:
-    """The value of an expression in the page."""
     return browser.execute_script(f"return {script}", *arguments)
 
 
@@ -57,7 +56,6 @@ def disquiet(browser: Any) -> list[str]:
 
 
 def assert_quiet(browser: Any) -> None:
-    """No error on the console, and nothing asked of the network."""
     assert disquiet(browser) == []
     assert ask(browser, "performance.getEntriesByType('resource').filter(e => !e.name.startsWith('data:')).length") == 0
 

@@ -2,6 +2,8 @@
 
 from collections.abc import Callable
 
+import numpy as np
+
 from hermite_fe.integrators import (
     GeneralizedAlphaPenalty,
     Integrator,
@@ -48,3 +50,10 @@ def chain(gap: float, load: list[list[float]]) -> System:
         load=load,
         contacts=ContactRows([[0]], [[1.0]], [gap]),
     )
+
+
+def dense(bands: np.ndarray) -> np.ndarray:
+    """The symmetric matrix of lower bands."""
+    n = bands.shape[1]
+    lower = sum(np.diag(bands[m, : n - m], -m) for m in range(min(4, n)))
+    return np.asarray(lower + np.tril(lower, -1).T)

@@ -1,15 +1,16 @@
 """Histories made by hand, for what reads histories, and the rod that falls."""
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from bent_beam import Impact, ImpactHistory
 
-__all__ = ["ROD", "history_of", "pushed_until"]
+__all__ = ["ROD", "history_of", "pushed_until", "rod"]
 
 # A steel rod, Ø 20 mm × 1 m with a sagitta of 10 mm, as a case file.
-ROD = """
+ROD = """title = "A rod"
 [section]
 kind = "round_bar"
 diameter = 0.02
@@ -23,6 +24,13 @@ damping_ratio = 0.01
 [impact]
 velocity = 1.0
 """
+
+
+def rod(folder: Path, *tables: str, element: float) -> Path:
+    """The case file of the rod on even elements, with more tables."""
+    file = folder / "rod.toml"
+    file.write_text("\n".join([ROD, f'[mesh]\nkind = "uniform"\nelement_length = {element}', *tables]))
+    return file
 
 
 def history_of(

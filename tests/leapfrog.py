@@ -8,8 +8,6 @@ v, w and M at the points of a grid, φ, ω and Q between them; leapfrog steps; m
 end its step inside the wall ends it on the wall.
 """
 
-from __future__ import annotations
-
 import numba
 import numpy as np
 

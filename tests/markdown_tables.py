@@ -10,8 +10,8 @@ NUMBER = re.compile(r"([-+]?\d+(?:\.(\d+))?)(?:(?:·10|e)([-+]?\d+))?")
 
 
 def stated(text: str) -> tuple[float, float]:
-    """A number as it is printed and the unit of its last digit."""
-    found = NUMBER.search(text.translate(RAISED))
+    """A number as it is printed, 10⁻³ among them, and the unit of its last digit."""
+    found = NUMBER.search(re.sub(r"^10(?=-\d)", "1e", text.translate(RAISED)))
     assert found, text
     power = 10.0 ** int(found[3] or 0)
     return float(found[1]) * power, power * 10.0 ** -len(found[2] or "")

@@ -37,7 +37,6 @@ def row(path: str, kappa: float, first: tuple[float, float, float] | None = None
 
 
 def lost(path: str, kappa: float, reason: str) -> MatchRow:
-    """A row that failed."""
     return MatchRow(
         label=LABELS[path], path=path, settings={}, kappa_over_nu=kappa, alpha=1.0, psi=0.0, chi=0.0, axial=0.0,
         refine=1.0, reason=reason,

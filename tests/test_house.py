@@ -9,11 +9,8 @@ import tomllib
 from functools import cache
 from pathlib import Path
 
-import pytest
-
 ROOT = Path(__file__).resolve().parent.parent
 PATHS = ("theory", "hermite_fe", "self_similar_fe", "exudyn_models")
-SCRIPTS = "exudyn_models.scripts."  # run and edited by users, on top of their path
 PROGRAMS = ("thesis", "report", "predictor", "open_benchmark")
 FLOOR = {
     **{"bent_beam": 0, "bent_beam.measure": 1},
@@ -139,7 +136,6 @@ def test_nothing_reads_the_folder_that_sessions_share():
 
 
 def alone(code):
-    """Run ``code`` in a fresh interpreter."""
     here = {"cwd": ROOT, "env": os.environ | {"PYTHONPATH": str(ROOT)}}
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, **here)
     assert done.returncode == 0, done.stderr[-2000:]
@@ -170,26 +166,3 @@ loads_no_more_than(allowed | {"numba", "hermite_fe"}, "predict", "cases/ruler.to
 def test_a_command_loads_only_what_it_needs():
     """Each of these may load what those before it may, and more."""
     alone(f"HEAVY = {LEAN | set(PATHS)!r}" + ONE_AFTER_ANOTHER)
-
-
-WITHOUT_THEORY = """
-import sys
-sys.modules["theory"] = None  # as if it were not installed
-from bent_beam import Impact
-from bent_beam.method import method_from_tables
-from bent_beam.measure.estimators import leading_order
-from bent_beam.measure.moments import moments
-
-for path in ("hermite", "self_similar", "exudyn"):
-    history = method_from_tables(path, {}).simulate(Impact.dimensionless(0.5), end_time=0.1, save=60)
-    found = leading_order(moments(history))
-    assert 0.5 < found.lambda0.value < 1.5, (path, found)
-"""
-
-
-@pytest.mark.verify  # that no path imports it, at the top or inside a function, imports say that run downwards
-def test_every_path_chooses_simulates_and_is_read_without_any_theory_and_scripts_are_imported_without_running():
-    """λ₀(½) is about 1.02: a run and its estimate find it where nobody could have told it."""
-    scripts = sorted(m for m in modules() if m.startswith(SCRIPTS))
-    assert len(scripts) >= 4
-    alone(WITHOUT_THEORY + "\n".join(f"import {name}" for name in scripts))

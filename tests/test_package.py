@@ -133,20 +133,10 @@ def test_the_version_is_stated_once():
     assert not [file for file in files if PROJECT["version"] in file.read_text()]
 
 
-def test_the_workflows_are_well_formed_and_test_every_declared_python():
+def test_the_workflow_tests_every_declared_python_with_extras_that_exist():
     yaml = pytest.importorskip("yaml")
-    found = {file.stem: yaml.safe_load(file.read_text()) for file in (ROOT / ".github" / "workflows").glob("*.yml")}
-    assert found.keys() == {"test", "release"}
-    for workflow in found.values():
-        assert workflow[True]  # YAML reads the key `on` as a truth value
-        for job in workflow["jobs"].values():
-            assert job["runs-on"] and all(step.keys() & {"uses", "run"} for step in job["steps"])
-    matrix = found["test"]["jobs"]["test"]["strategy"]["matrix"]
+    job = yaml.safe_load((ROOT / ".github" / "workflows" / "test.yml").read_text())["jobs"]["test"]
     declared = [c.rpartition(":: ")[2] for c in PROJECT["classifiers"] if re.search(r":: 3\.\d+$", c)]
-    assert matrix["python"] == declared
-    (install,) = (s["run"] for s in found["test"]["jobs"]["test"]["steps"] if "pip install" in s.get("run", ""))
+    assert job["strategy"]["matrix"]["python"] == declared
+    (install,) = (step["run"] for step in job["steps"] if "pip install" in step.get("run", ""))
     assert set(re.search(r"\.\[(.*)\]", install)[1].split(",")) <= PROJECT["optional-dependencies"].keys()
-    publish = found["release"]["jobs"]["publish"]
-    assert publish["permissions"] == {"id-token": "write"} and publish["needs"] == "build"
-    site = yaml.safe_load((ROOT / ".readthedocs.yaml").read_text())
-    assert all((ROOT / step["requirements"]).exists() for step in site["python"]["install"] if "requirements" in step)

@@ -147,6 +147,7 @@ def test_damping_ratio_and_loss_factor_are_the_same_time_constant():
         ({"section": PIPE | {"wall_thickness": 0.1}}, "walls cross"),
         ({"section": PIPE | {"inner_diameter": 0.1}}, "say the same"),
         ({"section": PIPE | {"kind": "tube"}}, "tube"),
+        ({"section": PIPE | {"poisson_ratio": 0.51}}, "poisson_ratio"),
         ({"impact": {}}, "impact.velocity is required"),
         ({"impact": {"velocity": 1.0, "drop_height": 1.0}}, "impact.velocity = 1.0 and impact.drop_height"),
         ({"impact": {"drop_height": 1.0, "gravity_angle": 90.0001}}, "needs gravity towards the wall"),

@@ -18,8 +18,8 @@ def lossy(loss: float, times: float = 1.0) -> Impact:
 @pytest.mark.parametrize("loss", [1e-4, 0.1, 0.3, 1.0])
 @pytest.mark.parametrize("times", [0.01, 1.0, 3e4])
 def test_the_loss_is_constant_within_a_tenth_over_the_stated_range_and_modulus_and_loss_hold_where_they_are_asked_for(
-    loss: float, times: float
-) -> None:
+    loss, times
+):
     impact = lossy(loss, times)
     assert impact.loss_frequency is not None
     branches = branches_of(impact)

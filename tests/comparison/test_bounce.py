@@ -4,13 +4,12 @@ import dataclasses
 import json
 import math
 import os
-from pathlib import Path
 from typing import ClassVar
 
 import numpy as np
 import pytest
 from called import answered, refused
-from histories import ROD, pushed_until
+from histories import pushed_until, rod
 
 from bent_beam.free_flight import has_left
 from bent_beam.history import ImpactHistory
@@ -84,7 +83,7 @@ def test_a_single_run_that_ends_at_the_wall_is_told_with_the_numbers_that_it_ent
 
 
 def test_without_damping_a_seeded_band_takes_the_place_of_a_number(monkeypatch) -> None:
-    monkeypatch.setattr("hermite_fe.method.ELEMENTS", 50)
+    monkeypatch.setattr("hermite_fe.whole_beam.ELEMENTS", 50)
     told: list[float] = []
     impact = problem(2.0, 0.0)
     found = bounce(impact, COARSE, runs=2, save=500, seed=3, progress=told.append)
@@ -101,16 +100,12 @@ def test_without_damping_a_seeded_band_takes_the_place_of_a_number(monkeypatch) 
     assert first == again != other
 
 
-def rod(folder, *tables, element=0.025) -> Path:
-    """The case file of a steel rod on even elements."""
-    file = folder / "rod.toml"
-    file.write_text("\n".join([ROD, f'[mesh]\nkind = "uniform"\nelement_length = {element}', *tables]))
-    return file
-
-
 @pytest.mark.parametrize("path", ["hermite", "exudyn"])
 def test_a_run_until_separation_ends_off_the_wall_on_either_path(path, tmp_path) -> None:
-    kept, asked = tmp_path / "run.nc", ("simulate", rod(tmp_path), "--path", path, "--error-bars", "drift")
+    kept, asked = (
+        tmp_path / "run.nc",
+        ("simulate", rod(tmp_path, element=0.025), "--path", path, "--error-bars", "drift"),
+    )
     found = answered(*asked, "--until", "separation", "--out", kept)
     history = ImpactHistory.load(kept)
     assert has_left(history) and history.array("gap")[-1].min() > 0.0 and found["hits"] is None

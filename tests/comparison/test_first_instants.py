@@ -1,6 +1,5 @@
 """The first instants of a beam on both paths: what its contact, its start and its mesh must not add."""
 
-import math
 from typing import Any
 
 import pytest
@@ -10,10 +9,7 @@ from bent_beam.cases import Case
 from bent_beam.measure.moments import first_front
 from bent_beam.measure.reduction import peak_moment
 from bent_beam.meshes import UniformMesh
-from comparison.matching import answer
-from comparison.rows import MatchQuestion
 from comparison.simulating import simulate_case
-from comparison.store import RunStore
 from exudyn_models import ExudynModel
 from exudyn_models.contacts import CONTACTS
 from hermite_fe import HermiteFE
@@ -43,9 +39,7 @@ def test_a_beam_that_touches_in_a_point_bends_by_the_step_in_velocity(kappa_over
         pytest.param(0.003, {"curvature": 0.32, "damping": 8e-4}, marks=pytest.mark.verify),
     ],
 )
-def test_a_lifted_zone_is_held_by_nothing_and_bears_no_load_that_the_half_length_could_lose(
-    end: float, beam: dict[str, float]
-) -> None:
+def test_a_lifted_zone_is_held_by_nothing_and_bears_no_load_that_the_half_length_could_lose(end, beam):
     """Damping keeps the zone off the wall from the first instant on: all of the reaction is at the front."""
     hermite, exudyn = simulated(end, **beam)
     assert peak_moment(exudyn).moment == pytest.approx(peak_moment(hermite).moment, rel=0.01)
@@ -67,7 +61,8 @@ def test_once_waves_return_both_paths_keep_the_same_books_of_free_ends(loads: di
     for name in ("kinetic_energy", "strain_energy", "work_of_loads"):
         pairs = [(h.array(name)[-1] / h.array("kinetic_energy")[0]) for h in (hermite, exudyn)]
         assert pairs[1] == pytest.approx(pairs[0], rel=0.01, abs=2e-3), name
-        assert name != "work_of_loads" or (abs(pairs[0]) > 0.01) == ("axial_force" in loads)
+    work = abs(hermite.array("work_of_loads")[-1]) / hermite.array("kinetic_energy")[0]
+    assert (work > 0.01) == ("axial_force" in loads)
 
 
 def test_a_pressed_zone_ends_where_theory_says_with_its_impulse() -> None:
@@ -90,14 +85,6 @@ def test_a_tension_along_x_bends_the_ends_of_a_bow() -> None:
     hermite, exudyn = simulated(0.002, curvature=2.1, damping=2.4e-3, axial_force=56.0)
     assert peak_moment(exudyn).moment == pytest.approx(peak_moment(hermite).moment, rel=0.03)
     assert abs(peak_moment(exudyn).place) > 0.8
-
-
-@pytest.mark.verify
-def test_the_bar_of_exudyns_r0_holds_what_its_hits_add() -> None:
-    """A coarser run with the same dashpot is wrong by the same."""
-    row = answer(MatchQuestion(ExudynModel(refine=0.5), 0.05), RunStore(None))
-    assert row.r0.covered and row.lambda0.covered
-    assert math.isfinite(row.r0.bar) and row.r0.bar < 1e-2 * row.r0.known
 
 
 def test_a_run_too_short_for_its_damping_stops() -> None:

@@ -6,17 +6,15 @@ import json
 import numpy as np
 import pytest
 
-from benchmarks.figures.moment import FLATTEST, FOLDER, KAPPAS, PATHS, MeasuredMoment, measure_moment
+from benchmarks.figures.moment import FOLDER, KAPPAS, PATHS, MeasuredMoment, measure_moment
 from bent_beam import Impact
 from bent_beam.measure import reduction
 from bent_beam.meshes import UniformMesh
-from comparison.methods import methods_of
 from exudyn_models import ExudynModel
 from hermite_fe import HermiteFE
 from theory.similarity import peak_moment
 
 WITHIN = 0.005
-MEASURED = [(path, kappa) for path in PATHS for kappa in KAPPAS if kappa >= FLATTEST[path]]
 HOLLOW = Impact.whole_beam(0.4, relative_damping=1e-2).replace(wall_curvature=0.1)
 ROCKING = HOLLOW.replace(rotation=0.2, first_touch=0.05)
 
@@ -34,14 +32,6 @@ def test_moment_of_a_quick_run_is_that_of_theory_and_steady() -> None:
     found = measure_moment(HermiteFE(), 0.5)
     assert found.value == pytest.approx(found.theory, rel=WITHIN)
     assert found.error < 0.01 * found.theory
-
-
-@pytest.mark.verify
-@pytest.mark.parametrize(("path", "kappa"), MEASURED)
-def test_moment_is_that_of_theory(path: str, kappa: float) -> None:
-    (method,) = methods_of([path])
-    found = measure_moment(method, kappa)
-    assert found.value == pytest.approx(found.theory, rel=WITHIN)
 
 
 @pytest.mark.parametrize("impact", [HOLLOW, ROCKING], ids=["middle", "beside it"])

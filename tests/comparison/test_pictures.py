@@ -6,13 +6,12 @@ import re
 import numpy as np
 import pytest
 from called import answered, refused
-from histories import ROD, pushed_until
+from histories import pushed_until, rod
 
 from bent_beam.cases import load_case
 from comparison import bounce, predict
 from comparison.figures.history import _window
 
-MESH = '\n[mesh]\nkind = "uniform"\nelement_length = 0.05\n'
 WALLS = {
     "rigid": "",
     "elastic": "[wall]\nstiffness = 1e5\n",
@@ -22,9 +21,7 @@ WALLS = {
 
 @pytest.fixture(params=WALLS)
 def case(request, tmp_path):
-    file = tmp_path / "rod.toml"
-    file.write_text('title = "A rod"\n' + ROD + WALLS[request.param] + MESH)
-    return load_case(file)
+    return load_case(rod(tmp_path, WALLS[request.param], element=0.05))
 
 
 def inside(axis):
@@ -70,8 +67,7 @@ def test_the_picture_of_a_stored_run_ends_soon_after_the_last_push_and_not_with_
 
 
 def test_predict_writes_document_and_picture_and_refuses_without_a_simulation(tmp_path):
-    file = tmp_path / "rod.toml"
-    file.write_text(ROD + MESH)
+    file = rod(tmp_path, element=0.05)
     answered("predict", file, "--time", 0.001, "--out", tmp_path / "out")
     assert {one.name for one in (tmp_path / "out").iterdir()} == {"predict.json", "predict.png"}
     assert "nothing" in refused("predict", file, "--theory-only", "--out", tmp_path / "none")

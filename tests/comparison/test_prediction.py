@@ -7,11 +7,10 @@ from typing import Any
 import numpy as np
 import pytest
 from called import answered, refused
-from histories import ROD
+from histories import rod
 
 from bent_beam import Impact
 from bent_beam.cases import Case, load_case
-from comparison.bouncing import bounce
 from comparison.doubts import doubts
 from comparison.predict_text import prediction_text, wall_lines
 from comparison.predicting import CHECKED, COMPARED, LATEST, predict_case
@@ -23,7 +22,6 @@ from theory.stopped_beam import StoppedBeam
 
 CASES = Path(__file__).resolve().parents[2] / "cases"
 K10 = str(CASES / "thesis_K10.toml")
-MESH = ("mesh.kind=uniform", "mesh.element_length=0.016")  # of the rod: coarser than it would be chosen
 
 
 def case_of(impact: Impact) -> Case:
@@ -90,28 +88,10 @@ def test_a_beam_of_no_damping_keeps_waves_that_grid_viscosity_absorbs_and_its_ba
     assert damped[0]["reaction"].spread < 0.01 * damped[0]["reaction"].known
 
 
-def test_predict_and_bounce_give_a_rod_s_whole_impact_to_the_last_digit(tmp_path: Path) -> None:
-    """Under its own weight, and on a wall that gives way: value and bar alike, from the same runs."""
-    (tmp_path / "rod.toml").write_text(ROD)
-    for one in ("impact.gravity=9.81", "wall.stiffness=1e8"):
-        case = load_case(tmp_path / "rod.toml", [one, *MESH])
-        document = predict_case(case, [1e-4, 1e-3]).to_dict()
-        other = bounce(case, case.method("hermite")).to_dict()
-        whole, si = document["whole_impact"], other["si"]
-        assert whole["restitution"] == other["restitution"]
-        assert {**whole["peak_stress"], "unit": "Pa"} == other["peak_stress"]
-        rigid = "gravity" in one
-        assert (whole["peak_force"] is None) == rigid
-        for name in ("peak_moment", "last_contact") if rigid else ("peak_moment", "last_contact", "peak_force"):
-            assert whole[name].items() <= si[name].items()
-        assert whole["span"] == other["span"] and whole["span"][1] > 2.0 * whole["last_contact"]["value"]
-        assert json.loads(json.dumps(document, allow_nan=False)) == document
-
-
 def test_a_rod_under_its_weight_leaves_with_what_is_known_of_it(tmp_path: Path) -> None:
-    (tmp_path / "rod.toml").write_text(ROD)
-    case = load_case(tmp_path / "rod.toml", ["impact.gravity=9.81", *MESH])
+    case = load_case(rod(tmp_path, element=0.016), ["impact.gravity=9.81"])
     document = predict_case(case, [1e-4, 1e-3]).to_dict()
+    assert json.loads(json.dumps(document, allow_nan=False)) == document
     restitution, largest = (document["whole_impact"][name] for name in ("restitution", "peak_stress"))
     assert restitution["value"] == pytest.approx(0.632, abs=2e-3) and restitution["error"] < 1e-2
     early, late = (row["simulation"]["peak_stress"] for row in document["times"])
@@ -124,8 +104,9 @@ def test_a_rod_under_its_weight_leaves_with_what_is_known_of_it(tmp_path: Path) 
 
 def test_a_damping_that_is_not_stated_is_answered_over_three_and_one_that_is_stated_once(tmp_path: Path) -> None:
     """The numbers are those of the largest stress; where damping is stated nothing else is run."""
-    (tmp_path / "rod.toml").write_text(ROD.replace("damping_ratio", "# damping_ratio"))
-    asked = ("bounce", tmp_path / "rod.toml", *(word for one in MESH for word in ("--set", one)))
+    file = rod(tmp_path, element=0.016)
+    file.write_text(file.read_text().replace("damping_ratio", "# damping_ratio"))
+    asked = ("bounce", file)
     found = answered(*asked)
     rows = found["over_damping"]
     assert [row["damping_ratio"] for row in rows] == [0.0002, 0.002, 0.02]

@@ -27,7 +27,6 @@ def area(width, height):
 
 
 def exists(program, words):
-    """Whether there is such a command."""
     from comparison.command_line.app import add_programs, app
 
     first = words.split()[0]

@@ -5,20 +5,16 @@ import json
 import pytest
 import xarray
 from called import answered, command, refused
-from histories import ROD
+from histories import rod
 
 from comparison import sweep
 from comparison.sweeping import NAMES, varied_from
 from hermite_fe import HermiteFE
 
-COARSE = '\n[mesh]\nkind = "uniform"\nelement_length = 0.1\n'
-
 
 @pytest.fixture
 def case(tmp_path):
-    file = tmp_path / "rod.toml"
-    file.write_text(ROD + COARSE)
-    return file
+    return rod(tmp_path, element=0.1)
 
 
 def test_rows_are_the_numbers_of_bounce_and_are_kept(case, tmp_path, monkeypatch):

@@ -80,9 +80,7 @@ LONG = [
 
 
 @pytest.mark.parametrize(("page", "all_of_it"), [*QUICK, *LONG])
-def test_commands_and_snippets_run(
-    page: Path, all_of_it: bool, folder: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_commands_and_snippets_run(page, all_of_it, folder, capsys):
     """One after the other, the names of snippets shared."""
     space: dict[str, object] = {"__name__": "__docs__"}
     for block in blocks(page):
@@ -124,7 +122,6 @@ def without_digits(text: str) -> list[str]:
 
 
 def printed(cell: Any) -> list[str]:
-    """What a cell of a notebook printed."""
     return without_digits(
         "".join(o.text for o in cell.get("outputs", []) if o.output_type == "stream" and o.name == "stdout")
     )

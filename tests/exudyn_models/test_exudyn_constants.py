@@ -3,8 +3,6 @@
 At a κ/ν at which nothing was chosen; the bar is that of ``bentbeam match``, with a companion of half the resolution.
 """
 
-from __future__ import annotations
-
 import pytest
 
 from bent_beam import Impact
@@ -59,9 +57,7 @@ def test_a_setting_halved_or_doubled(part, factor: float, chosen: LeadingEstimat
 @pytest.mark.parametrize(
     "name", ["START", "GROWTH", "WAVES", "GROWTH_OF_WAVES", "OF_ZONE", "OF_BENDING", "REACH", "REACH_OF_FRONT"]
 )
-def test_a_constant_halved_or_doubled(
-    name: str, factor: float, chosen: LeadingEstimate, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_constant_halved_or_doubled(name, factor, chosen, monkeypatch):
     module = base if name == "START" else resolution
     monkeypatch.setattr(module, name, getattr(module, name) * factor)
     does_not_move(ExudynModel(), chosen)
@@ -80,9 +76,7 @@ def test_a_constant_of_thin_fronts_halved_or_doubled(name: str, factor: float, m
 
 @pytest.mark.parametrize("factor", [0.5, 2.0])
 @pytest.mark.parametrize(("name", "ends"), [("ELEMENT_STEPS", (0.02, 0.08)), ("FEWEST", (2.0,))])
-def test_uniform_elements_halved_or_doubled(
-    name: str, ends: tuple[float, ...], factor: float, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_uniform_elements_halved_or_doubled(name, ends, factor, monkeypatch):
     """Once waves are back: work of a run, and with it elements by a quarter and steps by half; the fewest elements."""
     impact = Impact.dimensionless(0.4, length=2.0, damping=1e-3)
 

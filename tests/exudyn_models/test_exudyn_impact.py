@@ -33,7 +33,6 @@ def coarse(impact=HALF, growth=1.02, elements=30):
 
 
 def off(history):
-    """The larger of the relative errors of λ₀ and r₀."""
     found, exact = leading_order(moments(history)), contact_parameters(history.impact.kappa_over_nu)
     return max(abs(getattr(found, name).value / float(getattr(exact, name)) - 1.0) for name in ("lambda0", "r0"))
 

@@ -2,8 +2,6 @@
 
 Units half length = EI = μ = V₀ = 1; l_s the shear length, g = κ_sG/E."""
 
-from __future__ import annotations
-
 import exudyn as exu
 import numpy as np
 import pytest
@@ -16,7 +14,6 @@ from bent_beam.meshes import UniformMesh
 from comparison.bouncing import bounce
 from exudyn_models import ExudynModel
 from exudyn_models.assembly import assemble, lay_out
-from exudyn_models.contacts import SegmentFriction
 from exudyn_models.elements import ANCFCable
 from exudyn_models.integrators import Trapezoidal
 from hermite_fe import HermiteFE
@@ -45,6 +42,7 @@ def test_the_whole_impact_is_that_of_an_explicit_code_and_not_that_without_shear
 def test_recorded_moments_are_those_that_exudyn_puts_out(impact: Impact) -> None:
     """At a state without velocities, in the middle of each element."""
     chosen = ExudynModel(mesh=UniformMesh(0.1)).chosen(impact, 0.1)
+    assert isinstance(chosen.element, ANCFCable) == (impact is not BEAM)
     beam, _ = assemble(lay_out(impact, 0.1, chosen), chosen)
     data, bent = beam.mbs.systemData, np.random.default_rng(SEED)
     q = data.GetODE2Coordinates(configuration=exu.ConfigurationType.Initial)
@@ -102,13 +100,6 @@ def test_plain_solve_dynamic_finds_the_restitution_of_the_explicit_code() -> Non
     model.mbs.SolveDynamic(model.settings)
     impulse = model.mbs.GetSensorStoredData(model.sensors["impulse"])[-1, 1]
     assert impulse / 2.0 - 1.0 == pytest.approx(leapfrog.whole_impact(0.5, 3e-3, 0.05, G, 50, 1.1)[0], abs=5e-3)
-
-
-def test_what_does_not_go_with_shear_is_refused_and_told_the_way() -> None:
-    way = 'model = "euler_bernoulli"'
-    for parts, name in ((dict(element=ANCFCable()), "ancf_cable"), (dict(contact=SegmentFriction()), "cables")):
-        assert name in (said := ExudynModel(**parts).refuses(BEAM) or "") and way in said
-    assert isinstance(ExudynModel().chosen(BEAM.unsheared, 0.1).element, ANCFCable)
 
 
 def drawn() -> list[tuple[float, float, float, float]]:

@@ -1,7 +1,5 @@
 """Ends that are held, plates and stops, by Exudyn: closed forms, and the Hermite path's, held to the same."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose

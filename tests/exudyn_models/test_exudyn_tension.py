@@ -1,21 +1,16 @@
 """Axial force and curved walls: the model itself carries them."""
 
-import dataclasses
-
 import pytest
 from numpy.testing import assert_allclose
 
 import exudyn_models
 from bent_beam import Impact
-from bent_beam.measure import estimators
-from bent_beam.measure.moments import moments
 from bent_beam.meshes import UniformMesh
 from exudyn_models import ExudynModel
 from exudyn_models.geometry import LinearLimit, TrueGeometry
 from exudyn_models.method import held_for
 from exudyn_models.resolution import chosen_half_length
 from hermite_fe import HermiteFE
-from theory import contact_parameters
 
 
 def test_a_straight_beam_on_a_bulging_wall_is_the_bent_beam_on_a_flat_one():
@@ -69,27 +64,6 @@ def test_what_no_theory_of_a_zone_needs_is_left_alone():
     history = exudyn_models.simulate(zone, mesh=mesh, end_time=0.1, save=5)
     assert history.array("gap")[-1].min() < -1.0  # of what would be inside the wall without one, and far away
     assert not any("enters the wall" in warning for warning in history.warnings)
-
-
-@pytest.mark.verify
-@pytest.mark.parametrize("kappa_over_nu", [0.1, 0.25, 0.5, 0.8])
-def test_tension_changes_contact_and_reaction_as_first_order_theory_says(kappa_over_nu):
-    """Half the difference of runs under tension and compression, both in free flight, stands for one run."""
-    size, exact = 0.3, contact_parameters(kappa_over_nu, axial=1.0)
-    base = Impact.dimensionless(kappa_over_nu)
-    mesh = exudyn_models.chosen_mesh(base)
-    taut, pressed, free = (
-        moments(exudyn_models.simulate(base.replace(axial_force=n, acceleration=-n * kappa_over_nu), mesh=mesh))
-        for n in (size, -size, 0.0)
-    )
-    odd = dataclasses.replace(
-        free,
-        impulse=free.impulse + (taut.impulse - pressed.impulse) / 2,
-        moment=free.moment + (taut.moment - pressed.moment) / 2,
-    )
-    found = estimators.first_order([(size, odd)], free, estimators.leading_order(free))
-    for number, expected in ((found.lambda1, exact.lambda_axial), (found.r1, exact.r_axial)):
-        assert abs(number.value - expected) < 0.03 * max(1.0, abs(expected))
 
 
 @pytest.mark.verify

@@ -14,7 +14,7 @@ from exudyn_models.elements import GeometricallyExact
 from exudyn_models.integrators import Trapezoidal
 
 PAGE = [  # κ/ν, η/T*, this path's number and the Hermite path's of the finest mesh
-    (float(kappa), stated(damping.replace("10", "1e", 1))[0], stated(ours)[0], stated(theirs.split()[-1])[0])
+    (float(kappa), stated(damping)[0], stated(ours)[0], stated(theirs.split()[-1])[0])
     for kappa, damping, ours, _, theirs in lines_after("docs/exudyn.md", "## The whole impact")[2:]
 ]
 COARSE = ExudynModel(mesh=UniformMesh(1 / 20))

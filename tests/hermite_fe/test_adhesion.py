@@ -5,7 +5,6 @@ from typing import Annotated
 
 import numpy as np
 import pytest
-from hermite_parts import ALL
 
 from bent_beam import Impact, ImpactHistory
 from bent_beam.fields import Quantity
@@ -63,15 +62,3 @@ def test_a_weight_that_is_lifted_leaves_when_the_lift_exceeds_the_strength(schem
     found = integrate(system, np.zeros(1), np.zeros(1), scheme, 1.5, law=law, save=1500)
     assert found.time[found.closed[:, 0]].max() == pytest.approx((2.0 + strength) / 4.0, abs=3e-3)
     assert found.held_impulse[-1, 0] == pytest.approx(-(strength**2) / 8.0, abs=2e-3)
-
-
-@pytest.mark.parametrize("name", ["penalty", "velocity", "position_velocity_acceleration"])
-def test_schemes_that_let_nothing_pull_refuse_a_strength(name: str) -> None:
-    with pytest.raises(ValueError, match="strength has no effect with"):
-        run(ALL[name](STEP), AdhesiveContact(pull=1.0))
-
-
-def test_a_strength_below_0_is_refused() -> None:
-    system = System([[1.0]], [[0.0]], ContactRows([[0]], [[1.0]], [0.0]))
-    with pytest.raises(ValueError, match=r"strength must be 0 or more, N \(got -1.0\)"):
-        integrate(system, np.zeros(1), np.zeros(1), MoreauJean(STEP), 1.0, law=ContactLaw(strength=-np.ones(1)))

@@ -4,10 +4,7 @@
 Each is changed alone, at κ/ν away from the points that anything was chosen at.
 """
 
-from __future__ import annotations
-
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 import pytest
@@ -46,9 +43,7 @@ def agrees(found: LeadingEstimate, kappa: float, within: float) -> None:
 @pytest.mark.parametrize("kappa", WITHIN)
 @pytest.mark.parametrize("factor", [0.5, 2.0])
 @pytest.mark.parametrize(("where", "name"), CONSTANTS)
-def test_a_constant_halved_or_doubled(
-    where: Any, name: str, factor: float, kappa: float, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_constant_halved_or_doubled(where, name, factor, kappa, monkeypatch):
     monkeypatch.setattr(where, name, getattr(where, name) * factor)
     agrees(leading(kappa), kappa, WITHIN[kappa])
 

@@ -1,9 +1,8 @@
 """The compiled contact problem and factorisation against truth: every active set tried densely, and LAPACK."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
+from hermite_parts import dense
 from numpy.typing import NDArray
 from scipy.linalg import cho_solve_banded, cholesky_banded
 
@@ -17,13 +16,6 @@ from hermite_fe.stepping import Problem, prepare, problem_of
 from hermite_fe.system import ContactRows, System
 
 Array = NDArray[np.float64]
-
-
-def dense(bands: Array) -> Array:
-    """The symmetric matrix of lower bands."""
-    n = bands.shape[1]
-    lower = sum(np.diag(bands[m, : n - m], -m) for m in range(min(4, n)))
-    return np.asarray(lower + np.tril(lower, -1).T)
 
 
 def random_system(random: np.random.Generator) -> System:

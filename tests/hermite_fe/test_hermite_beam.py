@@ -1,8 +1,6 @@
 """Facts of the element (thesis A.6, 3.1.5, 3.1.8), of the validation beams (3.10–3.15), of masses, and of the beam as
 a system: axial force, damping of the material, curved walls."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -146,6 +144,7 @@ def test_the_first_impact_stops_the_mass_that_moves_with_a_node(mass: Mass) -> N
     energy = history.array("kinetic_energy") + history.array("strain_energy")
     beam = HermiteBeam(np.linspace(-0.5, 0.5, 21), 1.0, 1.0)
     moved = 20.0 / solveh_banded(mass.matrix(beam), np.eye(42)[20], lower=True)[20]
-    assert isinstance(mass, ConsistentMass) or moved == pytest.approx(1.0)
+    if isinstance(mass, LumpedMass):
+        assert moved == pytest.approx(1.0)
     assert history.array("total_impulse")[-1] == pytest.approx(moved, rel=1e-4)
     assert energy[0] - energy[-1] == pytest.approx(10.0 * moved, rel=1e-4)

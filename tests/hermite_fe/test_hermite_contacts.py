@@ -1,9 +1,6 @@
 """Facts of unilateral contact along the beam: complementarity, symmetry, momentum, energy, and what the hold
 does."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -106,24 +103,6 @@ def test_no_hold_acts_once_waves_may_be_back() -> None:
     held = history.array("held_impulse")
     assert history.settings["hold"]["until"] == pytest.approx(0.005)
     assert held[-1] == held[np.searchsorted(history.time, 0.0052)] < 0.0
-
-
-@pytest.mark.parametrize(
-    ("make", "message"),
-    [
-        (lambda: NodeContact(restitution=0.5, hold=4), "hold keeps rows closed"),
-        (lambda: MeanContact(restitution=1.5), r"contact\.restitution must lie in \[0, 1\] \(got 1.5\)"),
-        (lambda: MiddleContact(hold=-1), r"contact\.hold must be a whole number"),
-        (lambda: NodeContact(hold_until=-1.0), r"contact\.hold_until must not be negative"),
-        (lambda: run(INTEGRATORS["penalty"], NodeContact(hold=4)), r"contact\.hold has no effect"),
-        (lambda: run(INTEGRATORS["penalty"], MiddleContact()), r"contact\.kind"),
-        (lambda: run(INTEGRATORS["penalty"], NodeContact(restitution=0.5)), r"restitution must be 0 \(got 0.5\)"),
-        (lambda: run(INTEGRATORS["signorini_position"], NodeContact(restitution=0.5)), r"restitution must be 0 \("),
-    ],
-)
-def test_what_has_no_effect_or_no_sense_is_refused(make: Callable[[], object], message: str) -> None:
-    with pytest.raises(ValueError, match=message):
-        make()
 
 
 def test_impact_loss_vanishes_under_refinement() -> None:

@@ -1,7 +1,5 @@
 """What leaves does not come back: reflection of wave packets, and indifference to a larger far field."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -66,8 +64,8 @@ STEEP = 2.0 * np.pi / (15.0 * 0.02)
     ids=["growing elements with viscosity", "growing elements alone", "sponge", "free end"],
 )
 def test_a_packet_is_swallowed_by_viscosity_and_sponge_and_comes_back_without(
-    nodes: Array, far_field: FarField, number: float, start: float, turn: float, least: float, most: float
-) -> None:
+    nodes, far_field, number, start, turn, least, most
+):
     """In elements that grow with viscosity a packet dies on its way to where a few of them make a wave; what the mesh
     carries to the end dies in a sponge."""
     assert least <= returned(nodes, far_field, number, start, turn) < most

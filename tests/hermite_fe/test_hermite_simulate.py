@@ -1,7 +1,5 @@
 """``simulate``: the thesis's numbers with nothing set by hand, and what a user may get wrong."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -37,9 +35,7 @@ def scaled(history: ImpactHistory) -> tuple[NDArray[np.float64], NDArray[np.floa
         (25.0, 0.0, 1.0, 1e-3),  # one point, that bears ν
     ],
 )
-def test_auto_finds_the_leading_order_of_a_case_in_si_units(
-    curvature: float, lambda0: float, r0: float, within: float
-) -> None:
+def test_auto_finds_the_leading_order_of_a_case_in_si_units(curvature, lambda0, r0, within):
     history = simulate(Impact(1.0, 1.0, 50.0, curvature, 20.0))
     assert history.warnings == [] and history.completed
     found = leading_order(moments(history))
@@ -145,21 +141,6 @@ def test_a_run_that_fails_keeps_its_partial_history() -> None:
     assert partial is not None and not partial.completed
     assert 0.0 < partial.time[-1] <= 0.03 < caught.value.time
     assert caught.value.step > 0
-
-
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        ({"end_time": 0.0}, r"end_time must be positive \(got 0.0\)"),
-        ({"end_time": float("nan")}, "end_time must be a finite number"),
-        ({"save": 1}, "save must be"),
-        ({"mesh": UniformMesh(1e-9)}, r"^mesh\.element_length is too small"),
-        ({"impact": Impact.dimensionless(0.5, epsilon_psi=1.0, length=40.0)}, "into the wall before the impact"),
-    ],
-)
-def test_bad_arguments_are_named(arguments: dict[str, object], message: str) -> None:
-    with pytest.raises(ValueError, match=message):
-        simulate(**({"impact": SHORT} | arguments))  # type: ignore[arg-type]
 
 
 def test_the_part_of_a_long_beam_that_is_modelled_grows_as_bending_spreads() -> None:

@@ -1,7 +1,5 @@
 """hysteretic_loss: a loss that hardly depends on the frequency, by Maxwell branches."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -2,10 +2,9 @@
 
 Units half length = EI = μ = V₀ = 1; s = l_s, the shear length, g = κ_sG/E."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
+from hermite_parts import dense
 from numpy.polynomial import Polynomial
 from numpy.polynomial.legendre import leggauss
 from scipy.linalg import eigh
@@ -18,7 +17,6 @@ from bent_beam.meshes import GradedMesh, UniformMesh
 from hermite_fe import HermiteFE
 from hermite_fe.banded import product
 from hermite_fe.beam import HermiteBeam
-from hermite_fe.contacts import MiddleContact
 from hermite_fe.integrators import MoreauJean
 from tests import leapfrog
 
@@ -28,12 +26,6 @@ BEAM = Impact.whole_beam(0.5, relative_damping=3e-3, shear_length=S, shear_ratio
 
 def sheared(nodes: np.ndarray, s: float = S, g: float = G) -> HermiteBeam:
     return HermiteBeam(nodes, 1.0, 1.0, s**-2, g * s**2)
-
-
-def dense(bands: np.ndarray) -> np.ndarray:
-    n = bands.shape[1]
-    full = sum(np.diag(bands[m, : n - m], -m) for m in range(4))
-    return full + np.tril(full, -1).T
 
 
 def test_element_matrices_are_integrals_of_the_shape_functions_of_friedman_and_kosmatka() -> None:
@@ -130,15 +122,6 @@ def test_momentum_and_energy_close_and_half_the_beam_is_half_of_it(change: dict[
     middle = full.positions(0).size // 2
     assert full.array("bending_moment")[:, middle:] == pytest.approx(half.array("bending_moment"), abs=1e-3)
     assert np.abs(half.array("bending_moment")).max() <= half.moment.max() * (1.0 + 1e-9)
-
-
-def test_what_does_not_go_with_shear_is_refused_and_told_the_way() -> None:
-    way = 'model = "euler_bernoulli"'
-    lossy = BEAM.replace(damping=0.0, hysteretic_loss=0.01, loss_frequency=1.0)
-    assert "hysteretic_loss" in (said := HermiteFE().refuses(lossy) or "") and way in said
-    assert "contact.kind" in (said := HermiteFE(contact=MiddleContact()).refuses(BEAM) or "") and way in said
-    with pytest.raises(ValueError, match=r"contact\.kind"):
-        HermiteFE(contact=MiddleContact()).simulate(BEAM)
 
 
 @pytest.mark.parametrize(("kappa", "g"), [(0.5, 0.2), (1.5, 0.33)])

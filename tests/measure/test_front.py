@@ -1,4 +1,4 @@
-"""Half contact length and reaction as a run of any beam shows them, against theory and against a second measurement."""
+"""What a run of any beam shows at an instant, saved or between two: front, reaction, the largest until then."""
 
 import numpy as np
 import pytest
@@ -6,6 +6,7 @@ from histories import history_of
 
 from bent_beam import Impact
 from bent_beam.measure.force_map import force_map
+from bent_beam.measure.instant import instant
 from bent_beam.measure.moments import half_contact_length, mean_reaction
 from bent_beam.measure.reduction import pull_of
 from bent_beam.meshes import UniformMesh
@@ -49,8 +50,35 @@ def test_the_map_of_forces_holds_the_impulse_and_a_pull_is_a_share_of_a_push_in_
     impulse = 0.01 * np.outer(np.sqrt(time), np.exp(-x))
     history = history_of(time, x, impact=impact, impulse=impulse, total_impulse=2.0 * impulse.sum(axis=1))
     edges = np.linspace(0.0, 4.0, 9) / impact.length_scale
-    given = force_map(history, np.array([0, 20, 40]), edges) @ np.diff(edges) / impact.time_scale  # of 1 s each
-    assert given.sum() == pytest.approx(impulse[-1].sum() / (8.0 * impact.length_scale))
+    kept = np.array([0, 30, 40])  # 1.5 and 0.5 s
+    given = np.diff(time[kept]) @ force_map(history, kept, edges) @ np.diff(edges) / impact.time_scale
+    assert given == pytest.approx(impulse[-1].sum() / (8.0 * impact.length_scale))
     impulse = 1e-3 * np.outer(np.arange(41.0), [3.0, 2.0, 1.0])
     impulse[30:, 1] -= 4e-3
     assert pull_of(history_of(time, x[:3], impact=impact, impulse=impulse)) == pytest.approx(2.0 / 3.0)
+
+
+def test_the_largest_until_a_time_between_saved_instants_is_that_of_the_steps_until_then() -> None:
+    """Moment, force, penetration and pressure on a wall that gives way still grow at 0.03 T*."""
+    impact = Impact.whole_beam(1.0, relative_damping=1e-2).replace(wall_stiffness=100.0)
+    fine, coarse = (
+        HermiteFE().for_whole_beam(impact).simulate(impact, end_time=0.04, save=np.linspace(0.0, 0.04, n)[1:])
+        for n in (401, 21)
+    )
+    for time in (0.0301, 0.031, 0.0319):  # 0.03 and 0.032 are saved
+        exact, found = instant(fine, time), instant(coarse, time)
+        for name in ("peak_moment", "peak_force", "peak_penetration", "peak_pressure"):
+            assert getattr(found, name) == pytest.approx(getattr(exact, name), rel=2e-3), name
+        assert max(found.peak_moment_time, found.peak_force_time) <= time
+    first = float(coarse.time[1])  # until then a force grows from nothing
+    of_first = [instant(coarse, share * first).peak_force for share in (0.0, 0.5, 1.0)]
+    assert of_first == pytest.approx([0.0, 0.5 * of_first[2], of_first[2]]) and of_first[2] > 0.0
+
+
+def test_the_largest_moment_of_the_first_instants_is_not_interpolated_from_before_the_impact() -> None:
+    """It is there at once, V₀√(EIμ) of one point, and does not grow from 0 to the first saved instant."""
+    impact = Impact.whole_beam(2.0)
+    fine, coarse = (HermiteFE().simulate(impact, end_time=0.004, save=n) for n in (400, 3))
+    early = 0.5 * float(coarse.time[1])
+    assert instant(coarse, early).peak_moment == pytest.approx(instant(fine, early).peak_moment, rel=0.03)
+    assert instant(coarse, early).peak_moment > 0.9

@@ -22,9 +22,7 @@ from bent_beam.measure.numbers import Band, Number, number_of
         (1e6, 1e5, "(1.0 ± 0.1)e+06"),
     ],
 )
-def test_a_number_has_the_digits_of_its_error_bar_and_powers_of_ten_below_1e_4_and_from_1e6_on(
-    value: float, error: float, written: str
-) -> None:
+def test_a_number_has_the_digits_of_its_error_bar_and_powers_of_ten_below_1e_4_and_from_1e6_on(value, error, written):
     assert str(Number(value, error)) == written
 
 

@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 import pytest
-from histories import ROD, history_of, pushed_until
+from histories import history_of, pushed_until, rod
 
 from bent_beam.cases import load_case
 from bent_beam.free_flight import cannot_return, has_left
@@ -59,7 +59,7 @@ def test_first_release_and_impulse_until_then_are_the_stopped_beam_s(integrator,
 )
 def test_restitution_of_a_damped_beam_is_one_number_whatever_the_scheme(
     integrator, kappa, damping, elements, restitution, within
-) -> None:
+):
     method = HermiteFE(mesh=UniformMesh(1.0 / elements), integrator=integrator)
     history = method.simulate_to_separation(Impact.whole_beam(kappa, relative_damping=damping))
     found = whole_impact(history)
@@ -74,8 +74,7 @@ def test_restitution_of_a_damped_beam_is_one_number_whatever_the_scheme(
 def test_a_steel_rod_that_falls_on_a_wall_rebounds_with_0_63_of_its_velocity(tmp_path) -> None:
     """Ø 20 mm × 1 m, sagitta 10 mm, damping ratio 1 %, 1 m/s, under its weight: 0.6324 on 40 to 200 elements, 0.6298
     without shear."""
-    (tmp_path / "rod.toml").write_text(ROD)
-    case = load_case(tmp_path / "rod.toml", ["impact.gravity=9.81", "mesh.kind=uniform", "mesh.element_length=0.0125"])
+    case = load_case(rod(tmp_path, element=0.0125), ["impact.gravity=9.81"])
     history = case.method("hermite").simulate_to_separation(case.impact)
     found, impact = whole_impact(history), case.impact
     assert found.left and found.restitution == pytest.approx(0.6324, abs=5e-4)
@@ -190,7 +189,7 @@ def between_walls(path: str, elements: int, kappa: float, damping: float, distan
 )
 def test_each_hit_between_two_walls_gives_the_beam_its_impulse(
     path, elements, kappa, damping, distance, end, least, closes
-) -> None:
+):
     history = between_walls(path, elements, kappa, damping, distance, end)
     found = hits(history)
     assert len(found) >= least and [hit.wall for hit in found[:2]] == ["front", "opposite"]

@@ -26,7 +26,6 @@ class Fault(NamedTuple):
 
 
 def about(rng: Rng, least: float = 0.04, most: float = 0.2) -> float:
-    """A factor that is not one."""
     return float(1.0 + rng.choice([-1.0, 1.0]) * rng.uniform(least, most))
 
 

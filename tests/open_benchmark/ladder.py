@@ -6,8 +6,6 @@ its closed form in ``theory``. Errors are the mean of |J − J exact| over the r
 ``python tests/open_benchmark/ladder.py`` prints the table of docs/benchmark.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 
 import numpy as np

@@ -16,9 +16,11 @@ def result(file, **changes):
     return file
 
 
-def test_a_problem_is_written_and_not_over_what_is_there(tmp_path):
-    asked = ("problem", "leading-0.5", "--out", tmp_path / "problem.toml")
-    assert command(*asked)[0] == 0 and "exists already" in refused(*asked)
+def test_a_problem_is_written_in_the_language_of_its_file_and_not_over_what_is_there(tmp_path):
+    for name, read in (("p.json", json.loads), ("p.toml", tomllib.loads)):
+        asked = ("problem", "point-2", "--out", tmp_path / name)
+        assert command(*asked)[0] == 0 and "exists already" in refused(*asked)
+        assert read((tmp_path / name).read_text())["id"] == "point-2"
     refused("problem", "leading-2")
 
 
@@ -52,9 +54,3 @@ def test_benchmark_writes_a_page_for_an_adapter_of_ones_own(tmp_path):
     assert (out / "index.html").read_text().count("<h2") >= 3 and json.loads((out / "benchmark.json").read_text())
     refused("benchmark", "--solver", "nothing")
     refused("benchmark", "--install", "nothing")
-
-
-def test_a_problem_is_written_in_the_language_of_its_file(tmp_path):
-    for name, read in (("p.json", json.loads), ("p.toml", tomllib.loads)):
-        assert command("problem", "point-2", "--out", tmp_path / name)[0] == 0
-        assert read((tmp_path / name).read_text())["id"] == "point-2"

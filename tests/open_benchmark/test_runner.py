@@ -41,7 +41,6 @@ def ran(one, tmp_path, **limits):
 
 
 def until(holds):
-    """Wait for it, ten seconds at most."""
     end = time.monotonic() + 10.0
     while not holds():
         assert time.monotonic() < end

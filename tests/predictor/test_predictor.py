@@ -234,9 +234,7 @@ def test_twenty_random_beams_bounce_on_the_page_as_in_bounce() -> None:
     assert len(missed) <= 0.05 * compared, f"seed {seed}: " + "\n".join(missed)
 
 
-def test_page_is_one_small_file_that_asks_for_nothing_and_is_written_once(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_page_is_one_small_file_that_asks_for_nothing_and_is_written_once(tmp_path, capsys):
     file = tmp_path / "new" / "predictor.html"
     text = write_page(file).read_text(encoding="utf-8")
     assert len(text.encode()) < 400_000

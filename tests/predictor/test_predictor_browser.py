@@ -57,11 +57,7 @@ def simulated(browser: Any) -> Any:
 
 
 @pytest.mark.parametrize("width", [390, 1400])
-def test_loads_without_errors_or_requests_and_nothing_overflows_or_covers(
-    chromium: Any,  # noqa: F811
-    address: str,
-    width: int,
-) -> None:
+def test_loads_without_errors_or_requests_and_nothing_overflows_or_covers(chromium, address, width):  # noqa: F811
     browser = simulated(opened(chromium, address, width))
     assert_quiet(browser)
     assert beyond_the_edge(browser, "#predictor *") == []

@@ -120,7 +120,6 @@ KINDS = [kind if kind in QUICK else pytest.param(kind, marks=pytest.mark.verify)
 
 @functools.cache
 def simulated(kind):
-    """The history of the dimensionless problem."""
     run, length, loads, _ = RUNS[kind]
     return run(Impact.dimensionless(0.5, length=length, **loads))
 

@@ -20,9 +20,7 @@ def browser(chromium: Any, address: str) -> Any:  # noqa: F811
 
 
 @pytest.mark.parametrize("width", [1400, 390])
-def test_everything_is_drawn_without_errors_or_requests_and_nothing_overflows_or_is_lost(
-    browser: Any, address: str, width: int
-) -> None:
+def test_everything_is_drawn_without_errors_or_requests_and_nothing_overflows_or_is_lost(browser, address, width):
     opened(browser, address, width)
     assert beyond_the_edge(browser, "section, header, p, h2, .plot, table") == []
     cut = "[...document.querySelectorAll('.scroll > table')].filter(e => e.offsetParent)"

@@ -39,9 +39,7 @@ def largest_force_by_modes(
 @pytest.mark.parametrize(
     ("kappa_over_nu", "damping_ratio", "dx", "agree"), [(0.5, 0.0, 0.04, 3e-4), (2.0, 0.25, 0.01, 4e-3)]
 )
-def test_largest_force_is_that_of_the_beams_modes(
-    kappa_over_nu: float, damping_ratio: float, dx: float, agree: float
-) -> None:
+def test_largest_force_is_that_of_the_beams_modes(kappa_over_nu, damping_ratio, dx, agree):
     found = peak_force(kappa_over_nu, damping_ratio)
     modes = largest_force_by_modes(kappa_over_nu, damping_ratio, 1.1 * found.time, 15.0, dx)
     assert found.value == pytest.approx(modes, rel=agree)
@@ -119,12 +117,6 @@ def test_prediction_in_si_units(monkeypatch: pytest.MonkeyPatch) -> None:
     assert (rigid.peak_force, rigid.wall) == (None, None) and rigid.valid_until > 0.0
 
 
-@pytest.mark.parametrize(("arguments", "field"), [((0.0,), "kappa_over_nu"), ((0.5, -0.1), "wall_damping_ratio")])
-def test_numbers_out_of_range_are_refused_by_name(arguments: tuple[float, ...], field: str) -> None:
-    with pytest.raises(ValueError, match=field):
-        peak_force(*arguments)
-
-
 def test_a_stiff_beam_is_a_rigid_one_and_its_energy_is_all_in_the_spring():
     rod = SwungBeam(1e4, 0.5, 0.8, 2.0, 300.0, modes=6)
     mass = 0.5 * 0.8 / 3.0  # of the end that has the moment of inertia of the rod
@@ -134,8 +126,6 @@ def test_a_stiff_beam_is_a_rigid_one_and_its_energy_is_all_in_the_spring():
     time, tip = rod.tip(0.3)
     free = time > 1.1 * np.pi * np.sqrt(mass / 300.0)
     assert np.polyfit(time[free], tip[free], 1)[0] == pytest.approx(-1.6, rel=0.01), "off as fast as it came"
-    with pytest.raises(ValueError, match="end must lie after the largest force"):
-        rod.peak_force(0.01)
 
 
 def test_modes_converge_and_a_bending_beam_hits_its_stop_again():

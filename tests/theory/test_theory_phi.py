@@ -65,7 +65,6 @@ DIGITS = 100
 
 @pytest.fixture(scope="module")
 def pairs() -> list[tuple[mp.mpf, mp.mpf]]:
-    """φ_ν and φ_κ, which all closed forms are made of."""
     with mp.workdps(DIGITS):
         return [phi_pair(mp.mpf(lam)) for lam in LAMBDAS]
 

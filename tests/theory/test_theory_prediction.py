@@ -86,9 +86,7 @@ class Pipe:
         (PIPE, Pipe(yield_stress=1e8), validity.SECTION),
     ],
 )
-def test_what_ends_it_is_one_thing_and_rows_never_contradict_it(
-    impact: Impact, section: Pipe | None, limited_by: str
-) -> None:
+def test_what_ends_it_is_one_thing_and_rows_never_contradict_it(impact, section, limited_by):
     until = predict(impact, section=section).valid_until
     times = [0.0, 1e-6, 0.5 * until, until, until * (1.0 + 1e-9) + 1e-300, 2.0 * until, 50.0]
     found = predict(impact, times, section=section)
@@ -235,9 +233,7 @@ def test_ten_times_the_load_ends_validity_ten_times_earlier(ratio: float, loads:
 
 
 @pytest.mark.parametrize(("name", "power"), [("alpha", 0), ("chi", 1), ("psi", 2), ("axial", -1)])
-def test_the_flatter_a_contact_the_earlier_a_load_that_bends_ends_validity_and_the_later_tension(
-    name: str, power: int
-) -> None:
+def test_the_flatter_a_contact_the_earlier_a_load_that_bends_ends_validity_and_the_later_tension(name, power):
     """In proportion to κ^power, also where formulas of a contact of κ/ν = 0.003 stand for those of a flatter one."""
     one, other = (predict(Impact.dimensionless(kappa, **{f"epsilon_{name}": 1e6}, length=1e12)).valid_until
                   for kappa in (3.1e-3, 3e-4))  # fmt: skip

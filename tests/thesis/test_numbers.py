@@ -1,12 +1,10 @@
 """The page of printed numbers: each is in the class that its cells ask for, and is what is computed."""
 
-from __future__ import annotations
-
-import math
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from markdown_tables import stated
 
 from bent_beam_programs.report.studies import stored_numbers
 from bent_beam_programs.thesis.gallery.numbers import PRINTED, chapter2, scales
@@ -22,18 +20,10 @@ def on_page() -> list[list[str]]:
     return [[c.strip() for c in line.strip()[1:-1].replace(r"\|", "/").split("|")] for line in lines[2:]]
 
 
-def value(cell: str) -> tuple[float, int]:
-    """A printed number and how many significant digits it has."""
-    plain = cell.translate(str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻−", "0123456789--"))
-    text = "1e" + plain[2:] if plain.startswith("10-") else plain.replace("·10", "e")
-    return float(text), len(text.partition("e")[0].replace(".", "").lstrip("-0"))
-
-
 def test_every_printed_number_is_in_the_class_that_its_cells_ask_for() -> None:
     assert len(on_page()) > 60
     for _, what, thesis, ours, _, verdict, *why in on_page():
-        (printed, digits), (found, _) = value(thesis), value(ours)
-        unit = 10.0 ** (math.floor(math.log10(abs(printed))) + 1 - digits) if printed else 1.0
+        (printed, unit), (found, _) = stated(thesis), stated(ours)
         near = abs(found - printed) <= 0.501 * unit
         reason = " ".join(why)
         assert verdict in CLASSES, what
@@ -66,7 +56,7 @@ def test_the_page_of_printed_numbers_is_what_is_computed(part: Callable[[], Iter
         where, what, thesis, ours, _, verdict, *_ = (cell.replace("|", "/") for cell in printed.row())
         row = page[where, what, thesis]
         assert row[5] == verdict, what
-        assert value(row[3])[0] == pytest.approx(value(ours)[0], rel=2e-3), what
+        assert stated(row[3])[0] == pytest.approx(stated(ours)[0], rel=2e-3), what
 
 
 def test_a_value_is_within_rounding_where_as_many_digits_of_it_are_those_printed() -> None:

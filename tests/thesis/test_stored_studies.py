@@ -1,7 +1,5 @@
 """What is stored for the report: the parameter studies on the thesis's own cases."""
 
-from __future__ import annotations
-
 import json
 from contextlib import nullcontext
 from dataclasses import replace
@@ -42,9 +40,7 @@ def test_a_small_picture_keeps_the_colours_of_thin_lines(tmp_path: Path) -> None
         assert np.abs(kept[row] - colour).max() <= 12.0
 
 
-def test_stored_studies_carry_their_tables_and_pictures_and_are_confirmed_by_a_run(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_stored_studies_carry_their_tables_and_pictures_and_are_confirmed_by_a_run(tmp_path, monkeypatch):
     given = case(10.0, 0.002)
     small = replace(given, impact=given.impact.replace(length=2.0))
     monkeypatch.setattr(stored_studies, "case_of", lambda name: small)

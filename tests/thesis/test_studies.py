@@ -1,7 +1,5 @@
 """Studies: the theory they are compared with, what their runs show on small cases, the thesis's filter."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -275,10 +273,3 @@ def test_the_command_takes_methods_and_every_row_plot_and_table_carries_the_labe
     assert all(r["failure"] == "not varied: self_similar has no contact" and r["refused"] for r in rows[6:])
     drawn, table = ((out / f"restitution{end}.csv").read_text() for end in ("", "-table"))
     assert "Mine" in drawn and "Mine, refined 0.5 times" in drawn and "Endless" in table
-
-
-@SLOW
-def test_the_command_takes_paths_and_settings() -> None:
-    mesh = ("--set", "hermite.mesh.kind=uniform", "--set", "hermite.mesh.element_length=0.05")
-    rows = answered("study", "restitution", *SMALL, *mesh, "--path", "hermite")["rows"]
-    assert {row["label"] for row in rows} == {"Hermite, mesh=uniform, mesh.element_length=0.05"}
