@@ -14,19 +14,16 @@ from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
-from bent_beam.cases import Case, load_case
+from bent_beam import Case, Impact, ImpactHistory, InputError, load_case
 from bent_beam.checks import finite
-from bent_beam.errors import InputError
 from bent_beam.free_flight import LOWEST_PERIOD
-from bent_beam.history import ImpactHistory
 from bent_beam.hysteresis import converges
-from bent_beam.impact import Impact
 from bent_beam.measure.balance import balance_of
 from bent_beam.measure.numbers import Band, Number
 from bent_beam.measure.whole_impact import whole_impact
 from bent_beam.method import Method, separation_times
 from comparison.bounced import Bounce
-from comparison.energies import energy_at_end
+from comparison.doubts import energy_at_end
 from comparison.questions import Question
 from comparison.runs import Runs, bands_of, numbers_of, runs_of
 from comparison.store import RunStore

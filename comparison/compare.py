@@ -11,10 +11,9 @@ from typing import Any
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline
 
+from bent_beam import ImpactHistory, InputError
 from bent_beam.checks import finite, whole
-from bent_beam.errors import InputError
 from bent_beam.fields import part_from_table
-from bent_beam.history import ImpactHistory
 from bent_beam.measure.reduction import peak_moment
 from bent_beam.method import Method, method_type
 from bent_beam.versions import versions

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from bent_beam import Impact, ImpactHistory
 from bent_beam.free_flight import LOWEST_PERIOD
-from bent_beam.history import ImpactHistory
-from bent_beam.impact import Impact
 from bent_beam.measure.whole_impact import Hit, hits
 from bent_beam.method import Method, for_whole_beam
 from comparison.readable import text_table
@@ -32,13 +31,7 @@ BETWEEN_WALLS = tuple(name for name in TITLES if name != "restitution")
 OF_ONE_WALL = ("begin", "end", "impulse", "before", "after", "restitution")
 
 
-def follow_hits(
-    impact: Impact,
-    method: Method,
-    count: int,
-    *,
-    first: ImpactHistory,
-) -> list[Hit]:
+def follow_hits(impact: Impact, method: Method, count: int, *, first: ImpactHistory) -> list[Hit]:
     """The first ``count`` hits of a beam on its wall by one run, fewer where it does not come back.
 
     first : the run that a first hit has been read from: the first row is its own.
@@ -61,8 +54,6 @@ def follow_hits(
 
 def hits_table(rows: Sequence[Mapping[str, Any]], names: Sequence[str]) -> str:
     """Hits by their fields ``names``, a line each."""
-    body = [
-        [str(number), *(row[name] if isinstance(row[name], str) else f"{row[name]:.5g}" for name in names)]
-        for number, row in enumerate(rows, 1)
-    ]
-    return text_table(["hit", *(TITLES[name] for name in names)], body)
+    cells = [[row[name] if isinstance(row[name], str) else f"{row[name]:.5g}" for name in names] for row in rows]
+    head = ["hit", *(TITLES[name] for name in names)]
+    return text_table(head, [[str(number), *line] for number, line in enumerate(cells, 1)])

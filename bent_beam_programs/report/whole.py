@@ -11,10 +11,10 @@ from typing import Any
 
 from bent_beam.cases import EXAMPLES, load_case
 from bent_beam.errors import InputError
-from comparison.predict_text import validity_text
 from comparison.predicting import predict_case
 from comparison.readable import number_from
 from comparison.store import RunStore
+from comparison.texts import validity_text
 
 __all__ = ["COLUMNS", "pipe_prediction"]
 
