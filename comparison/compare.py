@@ -138,11 +138,10 @@ def rerun_history(
         new.save(out)
     differences: dict[str, float | None] = {}
     for name in sorted({*old.variables, *new.variables}):  # times and places too
-        if name not in old or name not in new or old.array(name).shape != new.array(name).shape:
+        a, b = (h.array(name) if name in h else None for h in (old, new))
+        if a is None or b is None or a.shape != b.shape:
             differences[name] = None
-            continue
-        a, b = old.array(name), new.array(name)
-        if not np.array_equal(a, b):
+        elif not np.array_equal(a, b):
             scale = float(np.abs(a).max()) or 1.0
             differences[name] = float(np.abs(a.astype(float) - b.astype(float)).max()) / scale
     now = versions()

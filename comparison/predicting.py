@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from bent_beam import Case, SimulationError
+from bent_beam import Case, Method, SimulationError
 from bent_beam.history import REFLECTED, ImpactHistory
 from bent_beam.hysteresis import converges
 from bent_beam.measure.estimators import lift_shares
@@ -34,7 +34,7 @@ from comparison.store import RunStore
 from comparison.texts import prediction_text
 from theory import Prediction, predict
 
-__all__ = ["COMPARED", "PredictedCase", "instant_numbers", "instants_reading", "numbers_at", "predict_case"]
+__all__ = ["COMPARED", "PredictedCase", "instant_numbers", "instants_reading", "numbers_at", "predict_case", "runs_to"]
 
 PATH = "hermite"
 COMPARED = ("half_contact_length", "reaction", "impulse", "peak_moment", "peak_stress")
@@ -185,9 +185,8 @@ def predict_case(
     told, share = progress or (lambda _: None), 1.0 / (len(set(times)) + whole)
     found: dict[float, Runs] = {}
     for i, time in enumerate(sorted({t for t in times if 0.0 < t <= within})):
-        question = Question(impact, method, until=time, damping_stated=case.damping_stated)
-        read = partial(instants_reading, (*checked, time) if time == within else (time,), question.first_spread)
-        found[time] = runs_of(question, read, store=store, progress=lambda done, i=i: told(share * (i + done)))  # type: ignore[misc]
+        asked = (*checked, time) if time == within else (time,)
+        found[time] = runs_to(case, method, asked, store, lambda done, i=i: told(share * (i + done)))  # type: ignore[misc]
     simulated = [numbers_at(found.get(time), case) for time in times]
     # what runs say, but for their ends: the theory beside them says how long those do not matter
     warnings += [line for runs in found.values() for line in runs.warnings if REFLECTED not in line]
@@ -203,6 +202,14 @@ def predict_case(
     agreement = _agreement(checked, prediction, found[within], len(times)) if within in found else None
     said = sorted(set(warnings))
     return PredictedCase(case, prediction, simulated, agreement, impact_found, why, said, found.get(within))
+
+
+def runs_to(
+    case: Case, method: Method, times: tuple[float, ...], store: RunStore | None, progress: Progress | None = None
+) -> Runs:
+    """Runs of a case to the last of ``times``, s, each read at all of them. Raises as :func:`runs_of`."""
+    question = Question(case.impact, method, times[-1], damping_stated=case.damping_stated)
+    return runs_of(question, partial(instants_reading, times, question.first_spread), store=store, progress=progress)
 
 
 def numbers_at(runs: Runs | None, case: Case) -> dict[str, Number]:

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from copy import deepcopy
 from dataclasses import dataclass, field
-from functools import cached_property, partial
+from functools import cached_property
 from itertools import product
 from typing import TYPE_CHECKING, Any
 
@@ -27,11 +27,9 @@ from bent_beam.tables import in_keys
 from comparison.bounced import documents
 from comparison.bouncing import bounce
 from comparison.doubts import doubts
-from comparison.predicting import instants_reading, numbers_at
-from comparison.questions import Question
+from comparison.predicting import numbers_at, runs_to
 from comparison.readable import flat, readable, text_table, unit_for
 from comparison.rows import failures, reason_of
-from comparison.runs import runs_of
 from comparison.store import RunStore
 from comparison.whole_numbers import WHOLE
 
@@ -143,8 +141,7 @@ def _found(case: Case, path: str, store: RunStore) -> dict[str, Any]:
     try:
         separation_times(impact)
     except InputError:
-        question = Question(impact, method, case.end_time, damping_stated=case.damping_stated)
-        runs = runs_of(question, partial(instants_reading, (case.end_time,), question.first_spread), store=store)
+        runs = runs_to(case, method, (case.end_time,), store)
         warnings = [*doubts(impact, case.section), *runs.warnings]
         return {"numbers": numbers_at(runs, case), "until": case.end_time, "warnings": warnings, "kept": runs.kept}
     found = bounce(case, method, store=store)
@@ -207,14 +204,17 @@ class SweepTable:
         return self.to_dataset().to_dataframe().reset_index()
 
     def __str__(self) -> str:
-        there = {name for row in self.rows for name in row.numbers}
-        shown = {name: about.heading for name, about in WHOLE.items() if about.heading and name in there}
-        units = {name: self._unit(name) for name in shown}
-        head = [f"{key}, {unit}" if unit else key for key, unit in self.units.items()]
-        head += [f"{title}, {units[name][1]}" if units[name][1] else title for name, title in shown.items()]
+        units = {}
+        for name, about in WHOLE.items():
+            found = [row.numbers[name] for row in self.rows if name in row.numbers]
+            if about.heading and found:
+                units[name] = unit_for(about.unit, [getattr(one, "mean", one.value) for one in found])
+        titles = [*self.units.items(), *((WHOLE[name].heading, unit) for name, (_, unit) in units.items())]
+        head = [f"{title}, {unit}" if unit else title for title, unit in titles]
         body = []
         for row in self.rows:
-            cells = [str(row.numbers[n].scaled(units[n][0])) if n in row.numbers else "-" for n in shown]
+            numbers = row.numbers
+            cells = [str(numbers[n].scaled(scale)) if n in numbers else "-" for n, (scale, _) in units.items()]
             body.append([readable(value) for value in row.varied.values()] + cells)
         kept = f"± is the error bar. {self.kept} of {len(self.rows)} rows came from the store."
         lines = [text_table(head, body), "", kept]
@@ -223,11 +223,6 @@ class SweepTable:
         lines += self._told("no numbers", [[row.reason] if row.reason else [] for row in self.rows])
         lines += self._told("warning", [row.warnings for row in self.rows])
         return "\n".join(lines)
-
-    def _unit(self, name: str) -> tuple[float, str]:
-        """In which a number is written: the same in all rows."""
-        values = [row.numbers[name] for row in self.rows if name in row.numbers]
-        return unit_for(WHOLE[name].unit, [getattr(one, "mean", one.value) for one in values])
 
     def _told(self, what: str, sentences: Sequence[Sequence[str]]) -> list[str]:
         """Each of the rows' sentences once, and of which rows it is."""

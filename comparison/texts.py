@@ -1,35 +1,29 @@
-"""Answers for a reader: a prediction, a whole impact, one run; kN, MPa, ms, as many digits as the error bar carries.
-Each is made of the document that ``--json`` prints."""
+"""Answers for a reader: a prediction, a whole impact, hits, a run; in kN, MPa, ms, with the digits that the error bar
+carries. Each is made of the document that ``--json`` prints."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from bent_beam.measure.numbers import Number
-from comparison.hits import BETWEEN_WALLS, hits_table
-from comparison.readable import beam_line, in_unit, largest_of, milliseconds, number_from, shown, text_table, unit_for
-from comparison.whole_numbers import WHOLE
+from comparison.readable import (
+    BEFORE,
+    LIMITS,
+    REGIMES,
+    beam_line,
+    in_unit,
+    largest_of,
+    milliseconds,
+    number_from,
+    shown,
+    text_table,
+    unit_for,
+)  # fmt: skip
+from comparison.whole_numbers import BETWEEN_WALLS, HIT, WHOLE
 
-__all__ = ["BEFORE", "LIMITS", "REGIMES", "bounce_text", "prediction_text", "run_text", "validity_text", "wall_lines"]
+__all__ = ["bounce_text", "hits_table", "prediction_text", "run_text", "validity_text", "wall_lines"]
 
-REGIMES = {
-    "discrete": "The contact stays one point.",
-    "continuous": "The contact spreads: a zone with a concentrated force at each end.",
-    "detached": "The contact is two points that move apart; the beam lifts off between them.",
-}
-LIMITS = {
-    "waves back from the ends": "reflections from the beam's ends arrive",
-    "first-order correction": "the loads change the contact by more than first order covers",
-    "tension": "the axial force changes the contact by more than first order covers",
-    "damping": "the contact spreads, for which material damping has no closed form",
-    "hysteretic loss": "the stiffness grows with the frequency, for which there is no closed form",
-    "slope": "slopes are no longer small",
-    "shear": "shear deformation matters until another limit ends it",
-    "wall": "the wall does not act as a rigid one before another limit ends it",
-    "section": "the section yields",
-}
-BEFORE = {"shear": "shear deformation matters", "wall": "the wall gives way"}
 COLUMNS = {
     "half_contact_length": ("half contact", "m"),
     "reaction": ("reaction", "N"),
@@ -250,15 +244,16 @@ def run_text(found: dict[str, Any], verbose: bool = False) -> str:
     lines = [
         _compared("half contact length", found["half_contact_length"], "m"),
         _compared("impulse", found["total_impulse"], "N s"),
-        *_peak(found, "moment", f"largest bending moment, {until}", "N m"),
-        *_peak(found, "stress", f"largest stress, {until}", "Pa"),
     ]
+    peaks = {"moment": (f"largest bending moment, {until}", "N m"), "stress": (f"largest stress, {until}", "Pa")}
     if found["peak_force"] is not None:  # of a wall that gives way
         wall = "wall" if found["peak_force_wall"] == "front" else "opposite wall"
         at = f"at {1e3 * found['peak_force_time']:.4g} ms and {found['peak_force_place']:.3g} m"
-        lines += _peak(found, "force", f"largest force, on the {wall}, {at}", "N")
-        lines += _peak(found, "penetration", "largest penetration", "m")
-        lines += _peak(found, "pressure", "largest pressure", "N/m")
+        peaks["force"] = f"largest force, on the {wall}, {at}", "N"
+        peaks |= {"penetration": ("largest penetration", "m"), "pressure": ("largest pressure", "N/m")}
+    for name, (title, unit) in peaks.items():
+        number = Number(found[f"peak_{name}"], found[f"peak_{name}_error"])
+        lines += [[title, *in_unit(number, unit), ""]] * number.measured
     if found["restitution"]["value"] is not None:
         lines.append(_compared("coefficient of restitution", found["restitution"]))
     lines.append(["lost to steps and mesh", f"{100.0 * found['numerical_loss']:.2g}", "% of the energy", ""])
@@ -292,7 +287,8 @@ def _of_experts(found: dict[str, Any]) -> list[list[str]]:
     return lines + [[title, shown(found[name]), "", ""] for name, title in OF_BALANCE.items()]
 
 
-def _peak(found: dict[str, Any], name: str, title: str, unit: str) -> list[list[str]]:
-    """The line of a largest value; none where it is not known."""
-    number = Number(found[f"peak_{name}"], found[f"peak_{name}_error"])
-    return [[title, *in_unit(number, unit), ""]] if number.measured else []
+def hits_table(rows: Sequence[Mapping[str, Any]], names: Sequence[str]) -> str:
+    """Hits by their fields ``names``, a line each."""
+    cells = [[row[name] if isinstance(row[name], str) else f"{row[name]:.5g}" for name in names] for row in rows]
+    head = ["hit", *(HIT[name] for name in names)]
+    return text_table(head, [[str(number), *line] for number, line in enumerate(cells, 1)])

@@ -1,12 +1,13 @@
 """The numbers of a whole impact: what each is measured in and called. A further one is a line of the table, and a field
-of :class:`bent_beam.measure.whole_impact.WholeImpact`; with a heading it is a column of a sweep.
+of :class:`bent_beam.measure.whole_impact.WholeImpact`; with a heading it is a column of a sweep. And what is said of a
+hit, in a table of hits.
 """
 
 from __future__ import annotations
 
 from typing import NamedTuple
 
-__all__ = ["FINAL", "NUMBERS", "WHOLE", "WholeNumber"]
+__all__ = ["BETWEEN_WALLS", "FINAL", "HIT", "NUMBERS", "OF_ONE_WALL", "WHOLE", "WholeNumber"]
 
 
 class WholeNumber(NamedTuple):
@@ -44,3 +45,18 @@ WHOLE = {
 NUMBERS = tuple(name for name in WHOLE if name not in ("peak_stress", "peak_force"))
 """Those of every whole impact: a stress needs a section, a largest force a wall that gives way."""
 FINAL = tuple(name for name, about in WHOLE.items() if about.final)
+
+HIT = {
+    "wall": "wall",
+    "begin": "from, s",
+    "end": "to, s",
+    "place": "mean |x|, m",
+    "impulse": "impulse, N s",
+    "before": "V before, m/s",
+    "after": "after, m/s",
+    "restitution": "restitution",
+    "energy": "energy, J",
+    "lost": "lost, J",
+}
+BETWEEN_WALLS = tuple(name for name in HIT if name != "restitution")
+OF_ONE_WALL = ("begin", "end", "impulse", "before", "after", "restitution")

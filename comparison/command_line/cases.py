@@ -55,11 +55,9 @@ def new(
     text = new_case(section or "pipe", damping_ratio) if like is None else example(like)
     check_out(out, overwrite)
     write_atomically(out, text)
-    emit(
-        {"file": str(out), "section": section or "pipe"} if like is None else {"file": str(out), "like": like},
-        as_json,
-        lambda: f"{out}: change every number or delete its line, then bentbeam predict {out}",
-    )
+    made = {"section": section or "pipe"} if like is None else {"like": like}
+    hint = f"{out}: change every number or delete its line, then bentbeam predict {out}"
+    emit({"file": str(out)} | made, as_json, lambda: hint)
 
 
 def settings(

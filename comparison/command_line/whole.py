@@ -52,17 +52,18 @@ def bounce(
     paths = path or ["hermite"]
     asked = _asked(case, kappa_over_nu, damping, paths, assignments or ())
     check_writable(out, folder=True)
-    from comparison.bouncing import bounce as follow  # SciPy: no refusal above waits for it
-    from comparison.hits import OF_ONE_WALL, follow_hits, hits_table
+    from comparison import bouncing  # SciPy: no refusal above waits for it
+    from comparison.texts import hits_table
+    from comparison.whole_numbers import OF_ONE_WALL
 
     how: dict[str, Any] = {"runs": runs, "seed": seed, "jobs": jobs, "history": out is not None or hits > 1}
     how["store"], every = RunStore.usual(fresh), []
     for one, method in asked:
         with progress(f"{method.path}: the whole impact", quiet) as bar:
-            every.append(follow(one, method, **how, progress=bar.fraction))
+            every.append(bouncing.bounce(one, method, **how, progress=bar.fraction))
     found, (_, method) = every[0], asked[0]
     with progress("hits", quiet):
-        followed = follow_hits(found.impact, method, hits, first=found.history) if hits > 1 else []
+        followed = bouncing.follow_hits(found.impact, method, hits, first=found.history) if hits > 1 else []
     rows = [{**vars(hit), "restitution": hit.restitution} for hit in followed]
     document, problem_of_files = found.to_dict(), ""
     if len(paths) > 1:
