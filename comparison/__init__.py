@@ -13,7 +13,7 @@
     reading    instants_reading (predicting.py), whole_reading (bouncing.py): a history to plain numbers by name
     answer     numbers with bars (runs.py), in PredictedCase, Bounce (bounced.py), Simulated, rows of a SweepTable;
                predict_case (predicting.py) and bounce (bouncing.py) ask the questions and put it together
-    printers   to_dict: JSON; *_text.py: the same for readers, by readable.py; figures/
+    printers   to_dict: JSON; texts.py: the same for readers, by readable.py; figures/
 
 doors.py has the functions of Python; the commands call the same drivers. ``match`` (matching.py) holds methods, not a
 beam, against the theory: MatchQuestion (rows.py), runs from the same store, bent_beam.measure.estimators, MatchRow.

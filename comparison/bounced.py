@@ -9,24 +9,20 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from bent_beam.cases import Case
+from bent_beam import Case, Impact, ImpactHistory
 from bent_beam.free_flight import LOWEST_PERIOD
-from bent_beam.history import ImpactHistory
-from bent_beam.impact import Impact
 from bent_beam.measure.balance import Balance
 from bent_beam.measure.numbers import Band, Number
 from bent_beam.measure.whole_impact import SHORTEST_SEPARATION, WINDOW, WholeImpact, peak_times
 from bent_beam.method import settings_of
-from bent_beam.section import Section
 from bent_beam.versions import versions
-from comparison.bounce_text import bounce_text
-from comparison.doubts import doubts
-from comparison.energies import energy_residual, numerical_loss
+from comparison.doubts import doubts, energy_residual, numerical_loss
 from comparison.readable import write_answer
 from comparison.runs import Runs
+from comparison.texts import bounce_text
 from comparison.whole_numbers import WHOLE
 
-__all__ = ["Bounce", "documents", "scales", "stress_of"]
+__all__ = ["Bounce", "documents", "scales", "with_stress"]
 
 LYING = 5.0  # times the largest push or moment: the end for a beam that does not leave
 MARGIN = 1.15  # times the last contact, or the largest value: the end of the axes
@@ -101,19 +97,10 @@ class Bounce:
 
     @property
     def in_si(self) -> dict[str, Number | Band]:
-        """The numbers in SI units; where the section is known, its largest stress, Pa, too."""
+        """The numbers in SI units, and the largest stress (:func:`with_stress`)."""
         unit = self.units
         found = {name: n.scaled(unit.get(WHOLE[name].scale, 1.0)) for name, n in self.numbers.items()}
-        stress = self.peak_stress
-        return found if stress is None else found | {"peak_stress": stress}
-
-    @property
-    def peak_stress(self) -> Number | Band | None:
-        """Largest normal stress, Pa, |M|/W + |N|/A at the place and time of the largest moment; ``None`` without a
-        section."""
-        return stress_of(
-            self.numbers["peak_moment"].scaled(scales(self.impact)["moment"]), self.impact, self.case.section
-        )
+        return with_stress(found, self.case)
 
     @property
     def span(self) -> tuple[float, float]:
@@ -125,11 +112,6 @@ class Bounce:
     def balance(self) -> Balance:
         """Momentum, energy and contact of the run itself, read from its state."""
         return Balance(**self.runs.run.reading["balance"])
-
-    @property
-    def energy(self) -> dict[str, float | None]:
-        """Energies of the run at its end, J."""
-        return dict(self.runs.run.reading["energy"])
 
     @property
     def warnings(self) -> list[str]:
@@ -165,19 +147,19 @@ class Bounce:
 
     def to_dict(self) -> dict[str, Any]:
         """The contract of ``bentbeam bounce --json``."""
-        stress, balance, section, question = self.peak_stress, self.balance, self.case.section, self.runs.question
-        in_si = documents(self.in_si, [name for name in self.numbers if WHOLE[name].scale])
+        in_si, reading, balance, band = self.in_si, self.runs.run.reading, self.balance, self.runs.question.band
+        stress, section, residual = in_si.get("peak_stress"), self.case.section, energy_residual(reading["energy"])
+        with_unit = {name: n.to_dict() | {"unit": WHOLE[name].unit} for name, n in in_si.items() if WHOLE[name].scale}
         energies = {name: n.to_dict() for name, n in self.numbers.items() if WHOLE[name].scale == "energy"}
         return {
             "model": self.impact.model,
             "velocity": self.impact.velocity,
             "kappa_over_nu": self.impact.kappa_over_nu,
             "damping": self.impact.relative_damping,
-            "hysteretic_loss": self.runs.run.reading["loss"],
+            "hysteretic_loss": reading["loss"],
             **{name: number.to_dict() for name, number in self.numbers.items() if name not in energies},
             "energy": energies,
-            "si": {name: {**one, "unit": WHOLE[name].unit} for name, one in in_si.items()}
-            | {"time_unit": self.units["time"]},
+            "si": with_unit | {"time_unit": self.units["time"]},
             "peak_stress": None if stress is None else {**stress.to_dict(), "unit": "Pa"},
             "yield_stress": None if section is None else section.yield_stress,
             **peak_times(self.outcome, self.impact),
@@ -186,19 +168,17 @@ class Bounce:
             "over_damping": self.over_damping,
             "contacts": [list(times) for times in self.outcome.contacts],
             "error_parts": {name: dict(n.parts) for name, n in self.numbers.items() if isinstance(n, Number)},
-            "energy_residual": energy_residual(self.energy),
-            "energy_defect": energy_residual(self.energy),
-            "numerical_loss": numerical_loss(self.energy),
+            "energy_residual": residual,
+            "energy_defect": residual,
+            "numerical_loss": numerical_loss(reading["energy"]),
             "energy_gain": self.outcome.energy_gain,
             "energy_of_state": balance.energy,
             "momentum_residual": balance.momentum,
-            "gap_of_push": balance.gap_of_push,
-            "penetration": balance.penetration,
-            "pull": balance.pull,
+            **{name: getattr(balance, name) for name in ("gap_of_push", "penetration", "pull")},
             "left": self.left,
             "steps": self.runs.run.steps,
             "seconds": self.seconds,
-            "seed": question.band[1] if question.band else None,
+            "seed": band[1] if band else None,
             "settings": self.settings,
             "versions": versions(),
             "warnings": self.warnings,
@@ -213,7 +193,7 @@ class Bounce:
 
     def plot(self) -> Any:
         """Force, stress and contact over time, and shapes, in the units of the case, as a Matplotlib figure."""
-        from comparison.figures.whole_impact import impact_figure
+        from comparison.figures.history import impact_figure
 
         return impact_figure(self.history, self.case, self.in_si, self._shown_until)
 
@@ -222,7 +202,7 @@ class Bounce:
 
         document : with what a command adds to :meth:`to_dict`.
         """
-        from comparison.figures.whole_impact import animate
+        from comparison.figures.history import animate
 
         film = animate(self.history, out / "bounce.gif", self._shown_until)
         return [*write_answer(self, out, "bounce", document=document), film]
@@ -254,8 +234,10 @@ def documents(numbers: Mapping[str, Number | Band], names: Iterable[str]) -> dic
     return {name: numbers[name].to_dict() if name in numbers else None for name in names}
 
 
-def stress_of(moment: Number | Band, impact: Impact, section: Section | None) -> Any:
-    """Largest normal stress, Pa, of a largest ``moment``, N m; ``None`` without a section."""
-    if section is None:
-        return None
-    return moment.scaled(1.0 / section.section_modulus, section.stress(0.0, impact.axial_force), "Pa")
+def with_stress(numbers: Mapping[str, Any], case: Case) -> dict[str, Any]:
+    """``numbers``, SI, and where the section is known the largest normal stress, Pa, |M|/W + |N|/A at the place and
+    time of their largest moment."""
+    if (section := case.section) is None:
+        return dict(numbers)
+    alone = section.stress(0.0, case.impact.axial_force)
+    return {**numbers, "peak_stress": numbers["peak_moment"].scaled(1.0 / section.section_modulus, alone, "Pa")}

@@ -14,30 +14,28 @@ from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
-from bent_beam.cases import Case, load_case
+from bent_beam import Case, Impact, ImpactHistory, InputError, load_case
 from bent_beam.checks import finite
-from bent_beam.errors import InputError
 from bent_beam.free_flight import LOWEST_PERIOD
-from bent_beam.history import ImpactHistory
 from bent_beam.hysteresis import converges
-from bent_beam.impact import Impact
 from bent_beam.measure.balance import balance_of
 from bent_beam.measure.numbers import Band, Number
-from bent_beam.measure.whole_impact import whole_impact
-from bent_beam.method import Method, separation_times
+from bent_beam.measure.whole_impact import Hit, hits, whole_impact
+from bent_beam.method import Method, for_whole_beam, separation_times
 from comparison.bounced import Bounce
-from comparison.energies import energy_at_end
+from comparison.doubts import energy_at_end
 from comparison.questions import Question
 from comparison.runs import Runs, bands_of, numbers_of, runs_of
 from comparison.store import RunStore
 from comparison.whole_numbers import FINAL, NUMBERS
 
-__all__ = ["DAMPING_RATIOS", "bounce", "case_of", "problem", "whole_numbers", "whole_reading"]
+__all__ = ["DAMPING_RATIOS", "bounce", "case_of", "follow_hits", "problem", "whole_numbers", "whole_reading"]
 
 TIMES = ("last_contact", "peak_moment_time")
 RUNS = 24  # of a band
 SEED = 15
 DAMPING_RATIOS = (0.0002, 0.002, 0.02)  # of the first mode: bare steel, a bar as it is held, with joints
+LONGEST, INSTANTS = 100.0, 200  # T*, of the longest run that follows hits; saved a T* of it
 LARGEST_KAPPA = 100.0  # beyond, and long before, the beam touches in one point: infinity is calculated as this
 
 
@@ -117,3 +115,24 @@ def whole_numbers(made: Runs) -> dict[str, Number | Band]:
     if not all(run.reading["left"] for run in made.every):
         found |= {name: Number() for name in FINAL}
     return found
+
+
+def follow_hits(impact: Impact, method: Method, count: int, *, first: ImpactHistory) -> list[Hit]:
+    """The first ``count`` hits of a beam on its wall by one run, fewer where it does not come back.
+
+    first : the run that a first hit has been read from: the first row is its own.
+    Raises ``ValueError`` for what the method refuses, and between two walls.
+    """
+    if impact.opposite_wall is not None:
+        raise ValueError("--hits: follows one wall; between two, bentbeam simulate lists the hits")
+    chosen, period = for_whole_beam(method, impact), LOWEST_PERIOD * impact.slow_time_scale
+    fall = impact.net_load / impact.mass_per_length  # acceleration back to the wall, m/s²
+    end, longest = 2.0 * period, LONGEST * impact.slow_time_scale
+    while True:
+        save = round(INSTANTS * end / impact.slow_time_scale)
+        found = hits(chosen.simulate(impact, end_time=end, save=save))
+        over = [hit for hit in found if end - hit.end >= period]
+        if len(over) >= count or end >= longest or (over and fall <= 0.0):
+            return [*hits(first)[:1], *over[1:count]]
+        flight = 2.0 * max(-over[-1].after, 0.0) / fall if over else end
+        end = min(end + flight + 2.0 * period, longest)

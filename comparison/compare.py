@@ -11,10 +11,9 @@ from typing import Any
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline
 
+from bent_beam import ImpactHistory, InputError
 from bent_beam.checks import finite, whole
-from bent_beam.errors import InputError
 from bent_beam.fields import part_from_table
-from bent_beam.history import ImpactHistory
 from bent_beam.measure.reduction import peak_moment
 from bent_beam.method import Method, method_type
 from bent_beam.versions import versions
@@ -139,11 +138,10 @@ def rerun_history(
         new.save(out)
     differences: dict[str, float | None] = {}
     for name in sorted({*old.variables, *new.variables}):  # times and places too
-        if name not in old or name not in new or old.array(name).shape != new.array(name).shape:
+        a, b = (h.array(name) if name in h else None for h in (old, new))
+        if a is None or b is None or a.shape != b.shape:
             differences[name] = None
-            continue
-        a, b = old.array(name), new.array(name)
-        if not np.array_equal(a, b):
+        elif not np.array_equal(a, b):
             scale = float(np.abs(a).max()) or 1.0
             differences[name] = float(np.abs(a.astype(float) - b.astype(float)).max()) / scale
     now = versions()

@@ -9,11 +9,10 @@ from typing import Any
 
 import numpy as np
 
+from bent_beam import Impact, InputError
 from bent_beam.cases import Case, lay_over, read_toml
 from bent_beam.checks import shortened
-from bent_beam.errors import InputError
 from bent_beam.files import write_atomically, write_dataset
-from bent_beam.impact import Impact
 from bent_beam.method import Method, method_from_tables
 from comparison import bouncing
 from comparison.bounced import Bounce
@@ -25,8 +24,7 @@ from comparison.predicting import PredictedCase, predict_case
 from comparison.readable import csv_text, write_answer
 from comparison.rows import THESIS_KAPPAS, questions
 from comparison.store import RunStore
-from comparison.sweeping import Row, cases_of, row_of, varied_from
-from comparison.swept import SweepTable
+from comparison.sweeping import Row, SweepTable, cases_of, row_of, varied_from
 from comparison.workers import run_all
 
 __all__ = ["Swept", "bounce", "match", "predict", "sweep"]

@@ -1,16 +1,23 @@
-"""What a reader should know of a case itself, whatever is computed for it."""
+"""What a reader should know of a case itself, whatever is computed for it; and of a run by its energies at the end: one
+account for every door."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 
+from bent_beam.history import LOSSES, ImpactHistory
 from bent_beam.impact import Impact
+from bent_beam.loads import unmodelled
 from bent_beam.section import Section
 
-__all__ = ["doubts", "steepness"]
+__all__ = ["comparable", "doubts", "energy_at_end", "energy_residual", "loss_warnings", "numerical_loss", "steepness"]
+
+Energies = Mapping[str, float | None]
 
 STEEP = 0.3  # slope of the bow at the beam's ends from which the small-slope theory deserves a warning
 STRAIGHTENED = 0.1  # N L²/(π² EI) from which a tension deserves one
+NOTABLE_LOSS = 0.02  # of the initial energy, likewise
 
 
 def steepness(impact: Impact) -> list[str]:
@@ -43,3 +50,43 @@ def doubts(impact: Impact, section: Section | None) -> list[str]:
     if force and section is not None:
         found.append(f"stresses include |N|/A = {1e-6 * section.stress(0.0, force):.4g} MPa of the axial force")
     return found
+
+
+def comparable(impact: Impact) -> bool:
+    """Whether the theory has an answer at all: a bow, symmetric about its first touch, before a wall that it knows."""
+    from theory.prediction import MODELLED  # SciPy
+
+    return impact.relative_curvature > 0.0 and not impact.off_centre and unmodelled(impact, MODELLED) is None
+
+
+def energy_at_end(history: ImpactHistory) -> dict[str, float | None]:
+    """The energies at the end, J, what was lost on the way, by cause, and the defect: what these do not explain."""
+    budget = history.energy_budget()
+    return {
+        "initial": budget["initial_energy"],
+        "kinetic": float(history.array("kinetic_energy")[-1]),
+        "strain": float(history.array("strain_energy")[-1]),
+        "wall": budget.get("contact_energy"),
+        **{name: budget.get(name) for name in ("work_of_loads", *LOSSES)},
+        "defect": budget["defect"],
+    }
+
+
+def numerical_loss(energy: Energies) -> float:
+    """Share of the initial energy that the scheme, the mesh and its viscosity took: what is booked for them, and what
+    is missing without being booked at all."""
+    booked = sum(energy[name] or 0.0 for name in ("loss_algorithmic", "loss_viscous"))
+    return (booked + max(-(energy["defect"] or 0.0), 0.0)) / (energy["initial"] or 1.0)
+
+
+def energy_residual(energy: Energies) -> float:
+    """What the terms of the budget leave, over the initial energy and the work of the loads."""
+    return abs(energy["defect"] or 0.0) / ((energy["initial"] or 1.0) + abs(energy["work_of_loads"] or 0.0))
+
+
+def loss_warnings(energy: Energies) -> list[str]:
+    """A warning where :func:`numerical_loss` is notable."""
+    share = numerical_loss(energy)
+    return [f"steps, mesh and grid viscosity took {100.0 * share:.2g} % of the initial energy"] * (
+        share >= NOTABLE_LOSS
+    )

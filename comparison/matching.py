@@ -13,10 +13,9 @@ from typing import Any
 
 import numpy as np
 
+from bent_beam import Impact, ImpactHistory
 from bent_beam.checks import positive
 from bent_beam.errors import ANY_FAILURE, SimulationError
-from bent_beam.history import ImpactHistory
-from bent_beam.impact import Impact
 from bent_beam.measure.balance import balance_of
 from bent_beam.measure.estimators import FirstOrderEstimate, LeadingEstimate, first_order, leading_order
 from bent_beam.measure.moments import Moments, moments
@@ -72,29 +71,25 @@ def _moments(run: Run) -> Moments:
     return Moments(**{name: np.array(values) for name, values in run.reading["moments"].items()})
 
 
-@dataclass(frozen=True)
-class _Runs:
-    """Runs to ``duration`` (t*), from the store where they are there, against the clock."""
+def _run(
+    store: RunStore, duration: float, clock: Clock | None, method: Method, impact: Impact, uniform: bool = False
+) -> Run:
+    """A run to ``duration`` (t*), from the store where it is there, against the clock.
 
-    store: RunStore
-    duration: float
-    clock: Clock | None
+    Raises :class:`Refused` for what the method refuses, before its run or in it.
+    """
+    if reason := method.refuses(impact):
+        raise Refused(str(reason))
 
-    def of(self, method: Method, impact: Impact, uniform: bool = False) -> Run:
-        """Raises :class:`Refused` for what the method refuses, before its run or in it."""
-        if reason := method.refuses(impact):
-            raise Refused(str(reason))
+    def run() -> ImpactHistory:
+        how: dict[str, Any] = {"end_time": duration * impact.time_scale, "save": SAVED}
+        try:
+            return simulated(method.simulate, impact, progress=clock and clock.progress(), **how)
+        except ValueError as error:
+            raise Refused(str(error)) from None
 
-        def run() -> ImpactHistory:
-            ask = None if self.clock is None else self.clock.progress()
-            end = self.duration * impact.time_scale
-            try:
-                return simulated(method.simulate, impact, end_time=end, save=SAVED, progress=ask)
-            except ValueError as error:
-                raise Refused(str(error)) from None
-
-        asked = {"impact": asdict(impact), "duration": self.duration}
-        return kept(self.store, asked, method, partial(_reading, uniform), run)
+    asked = {"impact": asdict(impact), "duration": duration}
+    return kept(store, asked, method, partial(_reading, uniform), run)
 
 
 @dataclass(frozen=True)
@@ -119,7 +114,9 @@ class _Estimates:
         return first_order(self.loaded, self.base, self.leading(others), pressure=self.pressure, companions=companions)
 
 
-def _estimates(question: MatchQuestion, factor: float, runs: _Runs, epsilon: float | None) -> _Estimates:
+def _estimates(
+    question: MatchQuestion, factor: float, run: Callable[..., Run], epsilon: float | None = None
+) -> _Estimates:
     """Run and estimate at ``factor`` times the method's own resolution; ``epsilon`` is the largest ε, ``None``: chosen.
 
     Raises :class:`Refused` for what the method refuses.
@@ -128,22 +125,21 @@ def _estimates(question: MatchQuestion, factor: float, runs: _Runs, epsilon: flo
     method = refined(asked, factor)
     if method is None:
         raise Refused(f"refine: {asked.path} does not know how to be refined (got {factor:g})")
-    run = runs.of(method, bare)
+    alone = run(method, bare)
     if first is None:
-        return _Estimates(run, [run])
-    top = epsilon
-    if top is None:
+        return _Estimates(alone, [alone])
+    if epsilon is None:
         perturbation = getattr(asked, "perturbation", PERTURBATION)
-        top = first_order_epsilon(leading_order(_moments(run)), first, perturbation, question.duration)
-    largest = question.loaded(top)
+        epsilon = first_order_epsilon(leading_order(_moments(alone)), first, perturbation, question.duration)
+    largest = question.loaded(epsilon)
     if reason := method.refuses(largest):
         raise Refused(str(reason))
     fixed = chosen_for(method, largest, question.duration * bare.time_scale)
     # only a load that presses the zone leaves a uniform reaction to take out, of the bare run too
     pressed = largest.zone_pressure > 0.0
-    base, *found = (runs.of(fixed, question.loaded(share * top), pressed) for share in (0.0, *SHARES))
-    moved = [(share * top, _moments(one)) for share, one in zip(SHARES, found)]
-    return _Estimates(run, [run, base, *found], _moments(base), moved, largest.zone_pressure / top)
+    base, *found = (run(fixed, question.loaded(share * epsilon), pressed) for share in (0.0, *SHARES))
+    moved = [(share * epsilon, _moments(one)) for share, one in zip(SHARES, found)]
+    return _Estimates(alone, [alone, base, *found], _moments(base), moved, largest.zone_pressure / epsilon)
 
 
 def answer(question: MatchQuestion, store: RunStore, limit: float | None = None) -> MatchRow:
@@ -151,13 +147,13 @@ def answer(question: MatchQuestion, store: RunStore, limit: float | None = None)
 
     limit : s, of the row. Raises :class:`Refused`, :class:`bent_beam.SimulationError`, :class:`TimeLimitError`.
     """
-    runs = _Runs(store, question.duration, None if limit is None else Clock(limit))
-    fine = _estimates(question, question.refine, runs, None)
+    run = partial(_run, store, question.duration, None if limit is None else Clock(limit))
+    fine = _estimates(question, question.refine, run)
     others, lost = list[_Estimates](), list[str]()
     epsilon = fine.loaded[-1][0] if fine.loaded else None
     for factor in ERROR_BARS[question.error_bars]:
         try:
-            others.append(_estimates(question, factor * question.refine, runs, epsilon))
+            others.append(_estimates(question, factor * question.refine, run, epsilon))
         except (ValueError, SimulationError) as error:
             what = f"no companion run at {factor:g} times the resolution, so the error bar is a guess"
             lost.append(f"{what}: {error}")

@@ -16,29 +16,25 @@ from typing import Any
 
 import numpy as np
 
-from bent_beam.cases import Case
-from bent_beam.errors import SimulationError
+from bent_beam import Case, Method, SimulationError
 from bent_beam.history import REFLECTED, ImpactHistory
 from bent_beam.hysteresis import converges
-from bent_beam.impact import Impact
 from bent_beam.measure.estimators import lift_shares
 from bent_beam.measure.instant import instant
 from bent_beam.measure.numbers import Number
 from bent_beam.measure.whole_impact import peak_times
-from bent_beam.method import Method
 from bent_beam.tables import in_keys
-from comparison.bounced import Bounce, documents, stress_of
+from comparison.bounced import Bounce, documents, with_stress
 from comparison.bouncing import bounce
-from comparison.doubts import doubts, steepness
-from comparison.energies import energy_at_end
-from comparison.predict_text import prediction_text
+from comparison.doubts import doubts, energy_at_end, steepness
 from comparison.questions import Question
 from comparison.readable import write_answer
 from comparison.runs import Runs, numbers_of, runs_of
 from comparison.store import RunStore
+from comparison.texts import prediction_text
 from theory import Prediction, predict
 
-__all__ = ["COMPARED", "PredictedCase", "instant_numbers", "instants_reading", "numbers_at", "predict_case"]
+__all__ = ["COMPARED", "PredictedCase", "instant_numbers", "instants_reading", "numbers_at", "predict_case", "runs_to"]
 
 PATH = "hermite"
 COMPARED = ("half_contact_length", "reaction", "impulse", "peak_moment", "peak_stress")
@@ -74,21 +70,17 @@ def instant_numbers(runs: Runs) -> dict[str, Number]:
     known: dict[str, dict[str, float]] = {name: {} for name in OF_INSTANT}
     known["half_contact_length"]["element"] = reading["element"]
     if not question.late:
+        impact = question.impact
+        # a load, damping, or a wall that gives way may lift the zone rightly; else the scheme has thrown it off, as it
+        # has in companions
+        rightly = impact.lifts or impact.damping or impact.wall_stiffness is not None
         for name in OF_INSTANT:
             known[name]["grid_viscosity"] = VISCOSITY * abs(reading[name] or 0.0)
-        lifted = _thrown_off(question.impact, reading["lift"])
-        for name, share in zip(("impulse", "half_contact_length"), lifted):
+        for name, share in zip(("impulse", "half_contact_length"), lift_shares(0.0 if rightly else reading["lift"])):
             known[name]["lift"] = share * (reading[name] or 0.0)
     if not converges(question.impact):
         known["peak_moment"]["chatter"] = CHATTER * reading["peak_moment"]
     return numbers_of(runs, OF_INSTANT, known)
-
-
-def _thrown_off(impact: Impact, lift: float) -> tuple[float, float]:
-    """What the scheme does where it throws the zone off the wall by ``lift`` V₀t: shares of the impulse and of the half
-    length. A load, damping, or a wall that gives way may lift it rightly. Companions are thrown off, too."""
-    may = impact.lifts or impact.damping or impact.wall_stiffness is not None
-    return (0.0, 0.0) if may else lift_shares(lift)
 
 
 @dataclass(frozen=True)
@@ -112,7 +104,7 @@ class PredictedCase:
 
     def to_dict(self) -> dict[str, Any]:
         """The contract of ``bentbeam predict --json``."""
-        document = self.theory.to_dict()
+        document, whole = self.theory.to_dict(), self.whole
         rows = document["times"]
         if self.simulated is not None:
             for row, numbers in zip(rows, self.simulated):
@@ -130,21 +122,16 @@ class PredictedCase:
             "warnings": self.warnings,
             "agreement": self.agreement,
             "yield_stress": getattr(self.case.section, "yield_stress", None),
-            "whole_impact": self._whole,
+            "whole_impact": None
+            if whole is None
+            else {
+                **documents(whole.in_si, OF_WHOLE),
+                **peak_times(whole.outcome, whole.impact),
+                "span": list(whole.span),
+                "over_damping": whole.over_damping,
+                "warnings": whole.warnings,
+            },
             "no_whole_impact": self.no_whole,
-        }
-
-    @property
-    def _whole(self) -> dict[str, Any] | None:
-        """Restitution, last contact, largest moment, stress and force of the whole impact, SI."""
-        if self.whole is None:
-            return None
-        return {
-            **documents(self.whole.in_si, OF_WHOLE),
-            **peak_times(self.whole.outcome, self.whole.impact),
-            "span": list(self.whole.span),
-            "over_damping": self.whole.over_damping,
-            "warnings": self.whole.warnings,
         }
 
     def __str__(self) -> str:
@@ -155,7 +142,7 @@ class PredictedCase:
 
         Raises ``ValueError`` where nothing is simulated.
         """
-        from comparison.figures.whole_impact import impact_figure
+        from comparison.figures.history import impact_figure
 
         if self.whole is not None:
             return self.whole.plot()
@@ -198,38 +185,36 @@ def predict_case(
     told, share = progress or (lambda _: None), 1.0 / (len(set(times)) + whole)
     found: dict[float, Runs] = {}
     for i, time in enumerate(sorted({t for t in times if 0.0 < t <= within})):
-        question = Question(impact, method, until=time, damping_stated=case.damping_stated)
-        read = partial(instants_reading, (*checked, time) if time == within else (time,), question.first_spread)
-        found[time] = runs_of(question, read, store=store, progress=lambda done, i=i: told(share * (i + done)))  # type: ignore[misc]
+        asked = (*checked, time) if time == within else (time,)
+        found[time] = runs_to(case, method, asked, store, lambda done, i=i: told(share * (i + done)))  # type: ignore[misc]
     simulated = [numbers_at(found.get(time), case) for time in times]
     # what runs say, but for their ends: the theory beside them says how long those do not matter
     warnings += [line for runs in found.values() for line in runs.warnings if REFLECTED not in line]
     if last > latest:
         warnings.append(f"times beyond {latest:.4g} s ({LATEST:g} T*) are not simulated here: bentbeam simulate")
-    impacts: tuple[Bounce | None, str | None] = (None, None)
+    impact_found: Bounce | None = None
+    why: str | None = None
     if whole:
-        impacts = _whole_impact(case, method, store, lambda done: told(1.0 - share * (1.0 - done)))
+        try:
+            impact_found = bounce(case, method, store=store, progress=lambda done: told(1.0 - share * (1.0 - done)))
+        except (ValueError, SimulationError) as error:
+            why = in_keys(str(error))
     agreement = _agreement(checked, prediction, found[within], len(times)) if within in found else None
-    return PredictedCase(case, prediction, simulated, agreement, *impacts, sorted(set(warnings)), found.get(within))
+    said = sorted(set(warnings))
+    return PredictedCase(case, prediction, simulated, agreement, impact_found, why, said, found.get(within))
+
+
+def runs_to(
+    case: Case, method: Method, times: tuple[float, ...], store: RunStore | None, progress: Progress | None = None
+) -> Runs:
+    """Runs of a case to the last of ``times``, s, each read at all of them. Raises as :func:`runs_of`."""
+    question = Question(case.impact, method, times[-1], damping_stated=case.damping_stated)
+    return runs_of(question, partial(instants_reading, times, question.first_spread), store=store, progress=progress)
 
 
 def numbers_at(runs: Runs | None, case: Case) -> dict[str, Number]:
-    """The numbers of one time; nothing where nothing was simulated."""
-    if runs is None:
-        return {}
-    found = instant_numbers(runs)
-    stress = stress_of(found["peak_moment"], case.impact, case.section)
-    return found if stress is None else found | {"peak_stress": stress}
-
-
-def _whole_impact(
-    case: Case, method: Method, store: RunStore | None, progress: Progress
-) -> tuple[Bounce | None, str | None]:
-    """What ``bounce`` says of the case, or why it says nothing."""
-    try:
-        return bounce(case, method, store=store, progress=progress), None
-    except (ValueError, SimulationError) as error:
-        return None, in_keys(str(error))
+    """The numbers of one time, the largest stress too; nothing where nothing was simulated."""
+    return {} if runs is None else with_stress(instant_numbers(runs), case)
 
 
 def _agreement(checked: Sequence[float], prediction: Prediction, runs: Runs, first: int) -> dict[str, float] | None:

@@ -22,9 +22,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from bent_beam import ImpactHistory, InputError
 from bent_beam.checks import one_of
-from bent_beam.errors import InputError
-from bent_beam.history import ImpactHistory
 from bent_beam.hysteresis import branches_of, converges
 from bent_beam.impact import BEFORE_WAVES_RETURN, Impact
 from bent_beam.measure.instant import BEYOND

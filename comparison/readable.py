@@ -15,20 +15,9 @@ from bent_beam.files import write_atomically
 from bent_beam.measure.numbers import Band, Number
 
 __all__ = [
-    "BEAMS",
-    "beam_line",
-    "csv_text",
-    "flat",
-    "in_unit",
-    "largest_of",
-    "milliseconds",
-    "number_from",
-    "readable",
-    "shown",
-    "text_table",
-    "unit_for",
-    "write_answer",
-]
+    "BEAMS", "BEFORE", "LIMITS", "REGIMES", "beam_line", "csv_text", "flat", "in_unit", "largest_of", "milliseconds",
+    "number_from", "readable", "shown", "text_table", "unit_for", "write_answer",
+]  # fmt: skip
 
 RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 SMALL, LARGE = 1e-3, 1e5  # beyond them a power of ten
@@ -40,6 +29,25 @@ BEAMS = {
     "euler_bernoulli": "The beam bends and does not shear (Euler and Bernoulli).",
 }
 """Which beam an answer is of, by ``Impact.model``."""
+
+REGIMES = {
+    "discrete": "The contact stays one point.",
+    "continuous": "The contact spreads: a zone with a concentrated force at each end.",
+    "detached": "The contact is two points that move apart; the beam lifts off between them.",
+}
+LIMITS = {
+    "waves back from the ends": "reflections from the beam's ends arrive",
+    "first-order correction": "the loads change the contact by more than first order covers",
+    "tension": "the axial force changes the contact by more than first order covers",
+    "damping": "the contact spreads, for which material damping has no closed form",
+    "hysteretic loss": "the stiffness grows with the frequency, for which there is no closed form",
+    "slope": "slopes are no longer small",
+    "shear": "shear deformation matters until another limit ends it",
+    "wall": "the wall does not act as a rigid one before another limit ends it",
+    "section": "the section yields",
+}
+BEFORE = {"shear": "shear deformation matters", "wall": "the wall gives way"}
+"""What a contact does; why the theory ends, and begins late, by the names that the theory has for it."""
 
 
 def beam_line(model: str, velocity: float) -> str:

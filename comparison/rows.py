@@ -19,22 +19,9 @@ from comparison.questions import ERROR_BARS
 from comparison.readable import shown, text_table
 
 __all__ = [
-    "DURATION",
-    "HELD_AGAINST",
-    "THESIS_KAPPAS",
-    "First",
-    "MatchQuestion",
-    "MatchRow",
-    "about",
-    "failures",
-    "first_order_epsilon",
-    "lost_row",
-    "match_document",
-    "match_table",
-    "questions",
-    "reason_of",
-    "with_theory",
-]
+    "DURATION", "HELD_AGAINST", "THESIS_KAPPAS", "First", "MatchQuestion", "MatchRow", "about", "failures",
+    "first_order_epsilon", "lost_row", "match_document", "match_table", "questions", "reason_of", "with_theory",
+]  # fmt: skip
 
 First = tuple[float, float, float, float]
 """(α, ψ, χ, N) with ν = 1."""

@@ -12,13 +12,11 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
 
-from bent_beam.errors import InputError, SimulationError
-from bent_beam.history import ImpactHistory
+from bent_beam import Impact, ImpactHistory, InputError, SimulationError
 from bent_beam.hysteresis import converges
-from bent_beam.impact import Impact
 from bent_beam.measure.numbers import Band, Number, number_of
 from bent_beam.method import Method, settings_of
-from comparison.energies import loss_warnings, numerical_loss
+from comparison.doubts import loss_warnings
 from comparison.questions import Question
 from comparison.store import RunStore, code_of, source_of
 from comparison.workers import run_all
@@ -71,7 +69,7 @@ class Runs:
     @property
     def warnings(self) -> list[str]:
         """What the run says, what steps and mesh took of its energy, and which companions are missing."""
-        return [*self.run.warnings, *loss_warnings(numerical_loss(self.run.reading["energy"])), *self.lost]
+        return [*self.run.warnings, *loss_warnings(self.run.reading["energy"]), *self.lost]
 
     def part(self, of: Callable[[dict[str, Any]], dict[str, Any]]) -> Runs:
         """The same runs with a part of their readings."""

@@ -38,8 +38,10 @@ LOADED = time.time()
 NO_PARTS = ("builtins", "abc", "typing", "numpy")  # their classes hold no code of a method
 
 
-def check_writable(out: Path, *, folder: bool) -> None:
+def check_writable(out: Path | None, *, folder: bool) -> None:
     """``InputError`` when ``out`` (or a file in it, a ``folder``) cannot be written: asked before the work."""
+    if out is None:
+        return
     place = out.resolve() if folder else out.resolve().parent  # of a link, where it leads
     try:
         if not folder and out.exists() and not out.is_file():  # a device would be replaced by the file

@@ -1,4 +1,5 @@
-"""A case over ranges of its keys: for each combination the numbers that ``bounce`` gives of that case, in SI.
+"""A case over ranges of its keys: for each combination the numbers that ``bounce`` gives of that case, in SI; as a
+document, a table for readers, columns (pandas), a grid (xarray).
 
 A row is a case like any other, and its runs are kept under its own questions: a killed sweep goes on where it was, and
 ``bounce`` of one of its cases runs nothing again. Where no separation is the last, between two walls or supports, a row
@@ -10,9 +11,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from copy import deepcopy
 from dataclasses import dataclass, field
-from functools import partial
+from functools import cached_property
 from itertools import product
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -21,19 +22,21 @@ from bent_beam.checks import shortened
 from bent_beam.errors import ANY_FAILURE, InputError
 from bent_beam.measure.numbers import Band, Number
 from bent_beam.method import separation_times
+from bent_beam.settings import settings
 from bent_beam.tables import in_keys
 from comparison.bounced import documents
 from comparison.bouncing import bounce
 from comparison.doubts import doubts
-from comparison.predicting import instants_reading, numbers_at
-from comparison.questions import Question
-from comparison.readable import readable
-from comparison.rows import reason_of
-from comparison.runs import runs_of
+from comparison.predicting import numbers_at, runs_to
+from comparison.readable import flat, readable, text_table, unit_for
+from comparison.rows import failures, reason_of
 from comparison.store import RunStore
 from comparison.whole_numbers import WHOLE
 
-__all__ = ["NAMES", "Row", "cases_of", "row_of", "varied_from"]
+if TYPE_CHECKING:
+    import xarray
+
+__all__ = ["NAMES", "Row", "SweepTable", "cases_of", "numeric", "row_of", "varied_from"]
 
 NAMES = tuple(name for name, about in WHOLE.items() if about.heading or name.startswith("peak_moment"))
 """Numbers of a row, SI."""
@@ -138,9 +141,104 @@ def _found(case: Case, path: str, store: RunStore) -> dict[str, Any]:
     try:
         separation_times(impact)
     except InputError:
-        question = Question(impact, method, case.end_time, damping_stated=case.damping_stated)
-        runs = runs_of(question, partial(instants_reading, (case.end_time,), question.first_spread), store=store)
+        runs = runs_to(case, method, (case.end_time,), store)
         warnings = [*doubts(impact, case.section), *runs.warnings]
         return {"numbers": numbers_at(runs, case), "until": case.end_time, "warnings": warnings, "kept": runs.kept}
     found = bounce(case, method, store=store)
     return {"numbers": found.in_si, "warnings": found.warnings, "kept": found.kept}
+
+
+@dataclass(frozen=True)
+class SweepTable:
+    """Rows of a sweep of the case ``title`` by the method of ``path``. vary : key → values, the last one fastest."""
+
+    title: str
+    path: str
+    vary: Mapping[str, Sequence[Any]]
+    rows: Sequence[Row]
+
+    @property
+    def kept(self) -> int:
+        """How many rows came from the store, all their runs."""
+        return sum(row.kept for row in self.rows)
+
+    @cached_property
+    def units(self) -> dict[str, str]:
+        """Unit of each key that is varied, as ``bentbeam settings`` has it."""
+        known = {f"{one.table}.{one.name}": one.unit for one in settings()}
+        return {key: known.get(key, "") for key in self.vary}
+
+    def to_dict(self) -> dict[str, Any]:
+        """The contract of ``bentbeam sweep --json``."""
+        return {
+            "title": self.title,
+            "path": self.path,
+            "vary": {key: list(values) for key, values in self.vary.items()},
+            "rows": [row.to_dict() for row in self.rows],
+            "failures": [{"varied": row.varied, "reason": row.reason} for row in failures(self.rows)],
+            "kept": self.kept,
+        }
+
+    def to_dataset(self) -> xarray.Dataset:
+        """The numbers, ``name`` and ``name_error``, over the keys as coordinates, SI; NaN where there is none."""
+        import xarray
+
+        columns = {"kappa_over_nu": "1"}
+        columns |= {f"{n}{end}": WHOLE[n].unit or "1" for n in NAMES for end in ("", "_error", "_mean", "_std")}
+        rows, shape = [flat(row.to_dict()) for row in self.rows], [len(values) for values in self.vary.values()]
+        variables = {}
+        for name, unit in columns.items():
+            values = np.array([row.get(name) for row in rows], float)  # None is NaN
+            if np.isfinite(values).any():
+                variables[name] = (list(self.vary), values.reshape(shape), {"units": unit})
+        coordinates = {
+            key: (key, np.array(values if numeric(values) else list(map(str, values))), {"units": self.units[key]})
+            for key, values in self.vary.items()
+        }
+        about = {"title": self.title, "path": self.path, "made_by": "bentbeam sweep"}
+        return xarray.Dataset(variables, coordinates, about)
+
+    @property
+    def table(self) -> Any:
+        """The same as a pandas frame: a column a key and a number, a row a case."""
+        return self.to_dataset().to_dataframe().reset_index()
+
+    def __str__(self) -> str:
+        units = {}
+        for name, about in WHOLE.items():
+            found = [row.numbers[name] for row in self.rows if name in row.numbers]
+            if about.heading and found:
+                units[name] = unit_for(about.unit, [getattr(one, "mean", one.value) for one in found])
+        titles = [*self.units.items(), *((WHOLE[name].heading, unit) for name, (_, unit) in units.items())]
+        head = [f"{title}, {unit}" if unit else title for title, unit in titles]
+        body = []
+        for row in self.rows:
+            numbers = row.numbers
+            cells = [str(numbers[n].scaled(scale)) if n in numbers else "-" for n, (scale, _) in units.items()]
+            body.append([readable(value) for value in row.varied.values()] + cells)
+        kept = f"± is the error bar. {self.kept} of {len(self.rows)} rows came from the store."
+        lines = [text_table(head, body), "", kept]
+        if any(row.until is not None for row in self.rows):
+            lines.append("Between two walls or supports no separation is the last: numbers until the case's end time.")
+        lines += self._told("no numbers", [[row.reason] if row.reason else [] for row in self.rows])
+        lines += self._told("warning", [row.warnings for row in self.rows])
+        return "\n".join(lines)
+
+    def _told(self, what: str, sentences: Sequence[Sequence[str]]) -> list[str]:
+        """Each of the rows' sentences once, and of which rows it is."""
+        found: dict[str, list[int]] = {}
+        for number, texts in enumerate(sentences):
+            for text in texts:
+                found.setdefault(text, []).append(number)
+        return [f"{what}: {text} ({self._which(numbers)})" for text, numbers in found.items()]
+
+    def _which(self, numbers: Sequence[int]) -> str:
+        """Rows in words."""
+        if 1 < len(numbers) == len(self.rows):
+            return "all rows"
+        first = self.rows[numbers[0]].name
+        return first if len(numbers) == 1 else f"{len(numbers)} rows, the first at {first}"
+
+
+def numeric(values: Sequence[Any]) -> bool:
+    return all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in values)

@@ -1,12 +1,13 @@
 """The numbers of a whole impact: what each is measured in and called. A further one is a line of the table, and a field
-of :class:`bent_beam.measure.whole_impact.WholeImpact`; with a heading it is a column of a sweep.
+of :class:`bent_beam.measure.whole_impact.WholeImpact`; with a heading it is a column of a sweep. And what is said of a
+hit, in a table of hits.
 """
 
 from __future__ import annotations
 
 from typing import NamedTuple
 
-__all__ = ["FINAL", "NUMBERS", "WHOLE", "WholeNumber"]
+__all__ = ["BETWEEN_WALLS", "FINAL", "HIT", "NUMBERS", "OF_ONE_WALL", "WHOLE", "WholeNumber"]
 
 
 class WholeNumber(NamedTuple):
@@ -30,9 +31,9 @@ WHOLE = {
     "impulse": WholeNumber("impulse", "N s", "impulse", "impulse"),
     "last_contact": WholeNumber("time", "s", "last contact", "last contact", final=True),
     "peak_moment": WholeNumber("moment", "N m", "largest bending moment", "largest moment"),
-    "peak_stress": WholeNumber("", "Pa", "", "largest stress"),
+    "peak_stress": WholeNumber("", "Pa", "largest stress", "largest stress"),
     "peak_force": WholeNumber("force", "N", "largest force on the wall", "largest force"),
-    "push": WholeNumber("impulse", "N s"),
+    "push": WholeNumber("impulse", "N s", "largest impulse within"),
     "translation": WholeNumber("energy", "J", "energy left in translation", final=True),
     "vibration": WholeNumber("energy", "J", "energy left in vibration", final=True),
     "dissipated": WholeNumber("energy", "J", "energy dissipated", final=True),
@@ -44,3 +45,18 @@ WHOLE = {
 NUMBERS = tuple(name for name in WHOLE if name not in ("peak_stress", "peak_force"))
 """Those of every whole impact: a stress needs a section, a largest force a wall that gives way."""
 FINAL = tuple(name for name, about in WHOLE.items() if about.final)
+
+HIT = {
+    "wall": "wall",
+    "begin": "from, s",
+    "end": "to, s",
+    "place": "mean |x|, m",
+    "impulse": "impulse, N s",
+    "before": "V before, m/s",
+    "after": "after, m/s",
+    "restitution": "restitution",
+    "energy": "energy, J",
+    "lost": "lost, J",
+}
+BETWEEN_WALLS = tuple(name for name in HIT if name != "restitution")
+OF_ONE_WALL = ("begin", "end", "impulse", "before", "after", "restitution")

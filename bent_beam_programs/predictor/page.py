@@ -7,8 +7,7 @@ from pathlib import Path
 
 from bent_beam.files import write_atomically
 from bent_beam_programs.predictor.coefficients import coefficients
-from comparison.predict_text import BEFORE, LIMITS, REGIMES
-from comparison.readable import BEAMS
+from comparison.readable import BEAMS, BEFORE, LIMITS, REGIMES
 from theory import contact_parameters, shear, validity, wall_prediction
 from theory.second_order import second_order
 

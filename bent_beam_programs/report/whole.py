@@ -11,10 +11,10 @@ from typing import Any
 
 from bent_beam.cases import EXAMPLES, load_case
 from bent_beam.errors import InputError
-from comparison.predict_text import validity_text
 from comparison.predicting import predict_case
 from comparison.readable import number_from
 from comparison.store import RunStore
+from comparison.texts import validity_text
 
 PIPE = EXAMPLES / "drill_pipe.toml"
 TIMES = (0.001, 0.005, 0.010)  # s

@@ -21,13 +21,11 @@ from typing import Annotated
 import typer
 
 from bent_beam.errors import ANY_FAILURE, InputError, SimulationError
-from comparison.command_line.bounce import bounce
 from comparison.command_line.cases import new, predict, settings, simulate
 from comparison.command_line.histories import compare, plot, rerun
-from comparison.command_line.match import match
 from comparison.command_line.options import printable
-from comparison.command_line.sweep import sweep
-from comparison.command_line.theory import theory
+from comparison.command_line.theory import match, theory
+from comparison.command_line.whole import bounce, sweep
 
 __all__ = ["COMMANDS", "add_programs", "app", "main", "run"]
 

@@ -9,7 +9,7 @@ import typer
 
 from bent_beam.errors import InputError, SimulationError
 from comparison.command_line import options
-from comparison.command_line.options import check_out, complete, emit, path_names, progress
+from comparison.command_line.options import check_out, complete, emit, of_path, progress
 
 __all__ = ["new", "predict", "settings", "simulate"]
 
@@ -55,11 +55,9 @@ def new(
     text = new_case(section or "pipe", damping_ratio) if like is None else example(like)
     check_out(out, overwrite)
     write_atomically(out, text)
-    emit(
-        {"file": str(out), "section": section or "pipe"} if like is None else {"file": str(out), "like": like},
-        as_json,
-        lambda: f"{out}: change every number or delete its line, then bentbeam predict {out}",
-    )
+    made = {"section": section or "pipe"} if like is None else {"like": like}
+    hint = f"{out}: change every number or delete its line, then bentbeam predict {out}"
+    emit({"file": str(out)} | made, as_json, lambda: hint)
 
 
 def settings(
@@ -108,10 +106,9 @@ def predict(
             loaded.impact.checked_time("time", one)
         except ValueError as error:
             raise InputError(f"--time: {error}") from None
-    if out is not None:
-        if theory_only or max(times) <= 0.0:
-            raise InputError(f"--out {out}: nothing is simulated, so that there is nothing to be drawn")
-        check_writable(out, folder=True)
+    if out is not None and (theory_only or max(times) <= 0.0):
+        raise InputError(f"--out {out}: nothing is simulated, so that there is nothing to be drawn")
+    check_writable(out, folder=True)
     from comparison.predicting import predict_case  # SciPy: no refusal above waits for it
 
     with progress(f"the whole beam: {case.name}", quiet or as_json or theory_only) as bar:
@@ -124,9 +121,7 @@ def predict(
 
 def simulate(
     case: options.CaseFile,
-    path: Annotated[
-        str, typer.Option(help="hermite, self_similar, exudyn or an installed one.", autocompletion=path_names)
-    ] = "hermite",
+    path: Annotated[str, of_path("hermite, self_similar, exudyn or an installed one.")] = "hermite",
     assignments: options.Set = None,
     until: Annotated[
         str | None, typer.Option(help='"separation": until the beam has left the wall; overrides [run].')
@@ -152,8 +147,8 @@ def simulate(
     if until not in (None, "separation"):
         raise InputError(f'--until takes "separation" (got {until!r}); an end time is run.end_time')
     check_out(out, overwrite)
-    from comparison.simulate_text import run_table  # SciPy: no refusal above waits for it
-    from comparison.simulating import simulate_case
+    from comparison.simulating import simulate_case  # SciPy: no refusal above waits for it
+    from comparison.texts import run_text
 
     how = {"until": loaded.end_time if until is None else None, "save": save, "error_bars": error_bars}
     try:
@@ -168,7 +163,7 @@ def simulate(
         except OSError as error:  # the run's answer is worth more than its file
             problem, out = f"--out: {out} could not be written: {error.strerror or error}", None
     document = found.to_dict(out)
-    emit(document, as_json, lambda: run_table(document, verbose))
+    emit(document, as_json, lambda: run_text(document, verbose))
     if problem:
         raise InputError(problem)
 

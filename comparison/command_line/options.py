@@ -37,6 +37,11 @@ def complete(known: list[str], incomplete: str) -> list[str]:
     return [word for word in known if word.startswith(incomplete)]
 
 
+def of_path(help: str) -> Any:
+    """The option ``--path``; which paths a command takes, and how many, is its own to say."""
+    return typer.Option("--path", help=help, autocompletion=path_names)
+
+
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON document on standard output and nothing else.")]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No progress on standard error.")]
 Verbose = Annotated[bool, typer.Option("--verbose", "-v", help="Also numbers for experts.")]
@@ -60,24 +65,14 @@ Set = Annotated[
         autocompletion=setting_names,
     ),
 ]
-Paths = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--path",
-        help="hermite, self_similar, exudyn or an installed one; repeatable. Default: hermite and exudyn.",
-        autocompletion=path_names,
-    ),
-]
 Methods = Annotated[
-    Path | None,
-    typer.Option(metavar="FILE.toml", help="File of methods (see cases/methods/), in place of --path."),
+    Path | None, typer.Option(metavar="FILE.toml", help="File of methods (see cases/methods/), in place of --path.")
 ]
 ErrorBars = Annotated[
     str, typer.Option(help="quick (one companion run, half resolution), thorough (also twice), drift (none).")
 ]
 Refine = Annotated[
-    str | None,
-    typer.Option(metavar="1,2,4", help="Factors by which elements and steps are refined, a row each."),
+    str | None, typer.Option(metavar="1,2,4", help="Factors by which elements and steps are refined, a row each.")
 ]
 Fresh = Annotated[bool, typer.Option("--fresh", help="Neither read nor store runs.")]
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace existing files.")]
@@ -141,11 +136,9 @@ def printable(text: str) -> str:
 
 def check_out(out: Path | None, overwrite: bool) -> None:
     """``InputError`` when the file cannot be written, or is there already."""
-    if out is None:
-        return
     from comparison.store import check_writable
 
-    if out.exists() and not overwrite:
+    if out is not None and out.exists() and not overwrite:
         raise InputError(f"--out: {out} exists already (give another name, or --overwrite)")
     check_writable(out, folder=False)
 

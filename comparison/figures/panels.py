@@ -10,9 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from bent_beam import Impact, ImpactHistory
 from bent_beam.free_flight import pushing
-from bent_beam.history import ImpactHistory
-from bent_beam.impact import Impact
 from bent_beam.measure.reduction import wall_peaks
 from bent_beam.measure.whole_impact import WINDOW
 from comparison.figures import style

@@ -11,7 +11,7 @@ from scipy.interpolate import PchipInterpolator
 from bent_beam.measure.numbers import Band
 from comparison.figures import style
 from comparison.readable import readable, unit_for
-from comparison.swept import SweepTable, numeric
+from comparison.sweeping import SweepTable, numeric
 from comparison.whole_numbers import WHOLE
 
 __all__ = ["sweep_figure"]

@@ -9,8 +9,7 @@ colour an integrator, a marker a contact.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Sequence
-from functools import partial
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -25,9 +24,6 @@ SMALLEST = 1e-7  # errors below are drawn here
 LARGEST = 1.0  # errors above leave the frame: there is no number
 MANY = 7  # methods that one panel can tell apart
 MARKERS = "osD^vP*X"
-
-Read = Callable[[MatchRow], tuple[float | None, float | None]]
-"""What a panel shows of a row, and its error bar."""
 
 
 def draw_work_precision(rows: Sequence[MatchRow], out: Path) -> list[Path]:
@@ -45,7 +41,10 @@ def draw_work_precision(rows: Sequence[MatchRow], out: Path) -> list[Path]:
     return files
 
 
-def _error(what: str, row: MatchRow) -> tuple[float | None, float | None]:
+def _read(row: MatchRow, what: str) -> tuple[float | None, float | None]:
+    """What a panel shows of a row, the lift or the error of a number, and its error bar."""
+    if what == "lift":
+        return row.lift, None
     number = getattr(row, what)
     off = number.relative(HELD_AGAINST[what])
     return None if off is None else abs(off), number.relative_bar(HELD_AGAINST[what])
@@ -53,11 +52,11 @@ def _error(what: str, row: MatchRow) -> tuple[float | None, float | None]:
 
 def _draw(rows: Sequence[MatchRow], out: Path, name: str, first: bool, missing: int) -> list[Path]:
     order = 1 if first else 0
-    panels: list[tuple[str, Read]] = [
-        (f"error of $r_{order}$  (1)", partial(_error, f"r{order}")),
-        (rf"error of $\lambda_{order}$  (1)", partial(_error, f"lambda{order}")),
-        (r"lift $/(V_0t)$" + (", no load" if first else "") + "  (1)", lambda row: (row.lift, None)),
-    ]
+    panels = {
+        f"r{order}": f"error of $r_{order}$  (1)",
+        f"lambda{order}": rf"error of $\lambda_{order}$  (1)",
+        "lift": r"lift $/(V_0t)$" + (", no load" if first else "") + "  (1)",
+    }
     groups = _groups(rows)
     marks = {label: mark for group in groups for label, mark in _marks(group).items()}
     cases = sorted({(r.kappa_over_nu, r.first) for r in rows})
@@ -67,9 +66,9 @@ def _draw(rows: Sequence[MatchRow], out: Path, name: str, first: bool, missing: 
     size = {"width": style.PAGE, "height": 1.9 * len(lines) + 0.5 + below}
     with style.figure(len(lines), len(panels), **size, squeeze=False, sharex=True, sharey="col") as (fig, axes):
         for line, (case, group) in enumerate(lines):
-            for axis, (title, read) in zip(axes[line], panels):
+            for axis, (what, title) in zip(axes[line], panels.items()):
                 for label, mark in marks.items():
-                    _line(axis, [r for r in group if r.label == label and _case(r) == case], read, mark)
+                    _line(axis, [r for r in group if r.label == label and _case(r) == case], what, mark)
                 axis.set(yscale="log", ylabel=title, xlabel="seconds  (s)" if line == len(lines) - 1 else "")
                 _seconds(axis, rows)
             paths = ", ".join(dict.fromkeys(r.path for r in group)) if len(groups) > 1 else ""
@@ -130,11 +129,11 @@ def _seconds(axis: Any, rows: Sequence[MatchRow]) -> None:
     axis.xaxis.set_minor_formatter(NullFormatter())
 
 
-def _line(axis: Any, rows: Sequence[MatchRow], read: Read, mark: dict[str, Any]) -> None:
+def _line(axis: Any, rows: Sequence[MatchRow], what: str, mark: dict[str, Any]) -> None:
     """One method over its refinements, with the error bars upwards."""
     points = []
     for row in sorted(rows, key=lambda r: r.refine):
-        value, bar = read(row)
+        value, bar = _read(row, what)
         if value is not None and row.seconds:
             points.append((row.seconds, max(value, SMALLEST), value + (bar or 0.0)))
     if not points:
@@ -148,7 +147,11 @@ def _marks(rows: Sequence[MatchRow]) -> dict[str, dict[str, Any]]:
     """Marker and colour by label: few methods as everywhere; many by contact and integrator, where that tells them
     apart."""
     labels = list(dict.fromkeys(r.label for r in rows))
-    parts = {r.label: tuple(_kind(r, name) for name in ("integrator", "contact")) for r in rows}
+    chosen = {r.label: [r.settings.get(name) for name in ("integrator", "contact")] for r in rows}
+    parts = {
+        label: tuple(str(part.get("kind")) if isinstance(part, dict) else "" for part in both)
+        for label, both in chosen.items()
+    }
     if len(labels) <= 4 or len(set(parts.values())) < len(labels):
         return style.marks(labels)
     integrators, contacts = (list(dict.fromkeys(p[i] for p in parts.values())) for i in (0, 1))
@@ -161,9 +164,3 @@ def _marks(rows: Sequence[MatchRow]) -> dict[str, dict[str, Any]]:
         }
         for label in labels
     }
-
-
-def _kind(row: MatchRow, name: str) -> str:
-    """The kind of a part in a row's settings."""
-    part = row.settings.get(name)
-    return str(part.get("kind")) if isinstance(part, dict) else ""

@@ -121,7 +121,7 @@ def test_a_run_until_separation_ends_off_the_wall_on_either_path(path, tmp_path)
 
 
 def test_the_command_gives_numbers_with_bars_figures_and_the_stress_of_the_largest_moment(tmp_path, monkeypatch):
-    monkeypatch.setattr("comparison.figures.whole_impact.FRAMES", 2)
+    monkeypatch.setattr("comparison.figures.history.FRAMES", 2)
     out = tmp_path / "out"
     found = answered("bounce", rod(tmp_path, element=0.05), "--out", out)
     assert {file.name for file in out.iterdir()} == {"bounce.json", "bounce.png", "bounce.gif"}

@@ -12,9 +12,9 @@ from histories import rod
 from bent_beam import Impact
 from bent_beam.cases import Case, load_case
 from comparison.doubts import doubts
-from comparison.predict_text import prediction_text, wall_lines
 from comparison.predicting import CHECKED, COMPARED, LATEST, predict_case
 from comparison.readable import number_from
+from comparison.texts import prediction_text, wall_lines
 from hermite_fe import HermiteFE
 from hermite_fe.integrators import MoreauJean
 from theory import predict

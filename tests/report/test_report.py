@@ -26,8 +26,8 @@ from bent_beam_programs.report.studies import stored_numbers
 from bent_beam_programs.report.whole import TIMES
 from bent_beam_programs.report.work import stored_measurements
 from comparison.methods import methods_of
-from comparison.predict_text import prediction_text
 from comparison.predicting import predict_case
+from comparison.texts import prediction_text
 from hermite_fe import HermiteFE
 from self_similar_fe import ExpandingMesh, SelfSimilarFE
 

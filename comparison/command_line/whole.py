@@ -1,4 +1,4 @@
-"""``bentbeam bounce``."""
+"""The commands on whole impacts: ``bentbeam bounce``, and ``sweep``, of many cases."""
 
 from __future__ import annotations
 
@@ -10,13 +10,12 @@ import typer
 
 from bent_beam.errors import InputError
 from comparison.command_line import options
-from comparison.command_line.options import emit, path_names, progress
+from comparison.command_line.options import emit, end_of_rows, of_path, progress, setting_names
 
 if TYPE_CHECKING:
-    from bent_beam.cases import Case
-    from bent_beam.method import Method
+    from bent_beam import Case, Method
 
-__all__ = ["bounce"]
+__all__ = ["bounce", "sweep"]
 
 
 def bounce(
@@ -28,10 +27,7 @@ def bounce(
     ] = None,
     damping: Annotated[float | None, typer.Option(help="η/T*, damping time of the material; 0 gives a band.")] = None,
     path: Annotated[
-        list[str] | None,
-        typer.Option(
-            help="hermite (default), exudyn or an installed one; repeatable: side by side.", autocompletion=path_names
-        ),
+        list[str] | None, of_path("hermite (default), exudyn or an installed one; repeatable: side by side.")
     ] = None,
     assignments: options.Set = None,
     runs: Annotated[int, typer.Option(min=2, max=1000, help="Runs of the ensemble without damping.")] = 24,
@@ -55,19 +51,19 @@ def bounce(
 
     paths = path or ["hermite"]
     asked = _asked(case, kappa_over_nu, damping, paths, assignments or ())
-    if out is not None:
-        check_writable(out, folder=True)
-    from comparison.bouncing import bounce as follow  # SciPy: no refusal above waits for it
-    from comparison.hits import OF_ONE_WALL, follow_hits, hits_table
+    check_writable(out, folder=True)
+    from comparison import bouncing  # SciPy: no refusal above waits for it
+    from comparison.texts import hits_table
+    from comparison.whole_numbers import OF_ONE_WALL
 
     how: dict[str, Any] = {"runs": runs, "seed": seed, "jobs": jobs, "history": out is not None or hits > 1}
     how["store"], every = RunStore.usual(fresh), []
     for one, method in asked:
         with progress(f"{method.path}: the whole impact", quiet) as bar:
-            every.append(follow(one, method, **how, progress=bar.fraction))
+            every.append(bouncing.bounce(one, method, **how, progress=bar.fraction))
     found, (_, method) = every[0], asked[0]
     with progress("hits", quiet):
-        followed = follow_hits(found.impact, method, hits, first=found.history) if hits > 1 else []
+        followed = bouncing.follow_hits(found.impact, method, hits, first=found.history) if hits > 1 else []
     rows = [{**vars(hit), "restitution": hit.restitution} for hit in followed]
     document, problem_of_files = found.to_dict(), ""
     if len(paths) > 1:
@@ -110,3 +106,48 @@ def _asked(
 
     beam = case_of(problem(kappa_over_nu or 0.0, damping))
     return [(beam, method) for method in methods_of(paths, assignments)]
+
+
+def sweep(
+    case: options.CaseFile,
+    vary: Annotated[
+        list[str],
+        typer.Option(
+            metavar="TABLE.KEY=A:B:N|A,B,C",
+            help="A key of the case file and its values: N evenly from A to B, or a list; repeatable.",
+            autocompletion=setting_names,
+        ),
+    ],
+    path: Annotated[str, of_path("hermite, exudyn or an installed one.")] = "hermite",
+    assignments: options.Set = None,
+    jobs: options.ManyJobs = None,
+    scheduler: options.Scheduler = None,
+    out: Annotated[Path | None, typer.Option(help="Folder for the table (CSV, netCDF) and the figure.")] = None,
+    fresh: options.Fresh = False,
+    as_json: options.Json = False,
+    quiet: options.Quiet = False,
+) -> None:
+    """Vary keys of a case: the whole impact of each, in a table.
+
+    A row has the numbers of bentbeam bounce. One key gives curves with error bars, two a map. What is finished is kept.
+
+    Example: bentbeam sweep cases/tube.toml --vary impact.velocity=0.5:2:4 --vary beam.sagitta=0.005,0.01,0.02 --out out
+    """
+    from math import prod
+
+    from comparison.doors import sweep as sweep_all
+    from comparison.store import check_writable
+    from comparison.sweeping import varied_from
+
+    check_writable(out, folder=True)
+    keys = [varied_from(text) for text in vary]
+    asked, rows = dict(keys), prod(len(values) for _, values in keys)
+    if len(asked) < len(keys):
+        raise InputError("--vary: a key is given twice")
+    how = {"assignments": assignments or (), "scheduler": scheduler, "fresh": fresh}
+    with progress(f"{rows} rows", quiet) as bar:
+        found = sweep_all(case, asked, path, jobs=jobs, progress=bar.count, **how)  # type: ignore[arg-type]
+    emit(found.to_dict(), as_json, lambda: str(found))
+    if out is not None:
+        found.write(out)  # after the answer, which a full disk must not cost
+    end_of_rows(found.rows)

@@ -1,0 +1,294 @@
+"""Answers for a reader: a prediction, a whole impact, hits, a run; in kN, MPa, ms, with the digits that the error bar
+carries. Each is made of the document that ``--json`` prints."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from bent_beam.measure.numbers import Number
+from comparison.readable import (
+    BEFORE,
+    LIMITS,
+    REGIMES,
+    beam_line,
+    in_unit,
+    largest_of,
+    milliseconds,
+    number_from,
+    shown,
+    text_table,
+    unit_for,
+)  # fmt: skip
+from comparison.whole_numbers import BETWEEN_WALLS, HIT, WHOLE
+
+__all__ = ["bounce_text", "hits_table", "prediction_text", "run_text", "validity_text", "wall_lines"]
+
+COLUMNS = {
+    "half_contact_length": ("half contact", "m"),
+    "reaction": ("reaction", "N"),
+    "impulse": ("impulse", "N s"),
+    "peak_moment": ("moment", "N m"),
+    "peak_stress": ("stress", "Pa"),
+}
+ENERGIES = {
+    "initial": "initial energy",
+    "kinetic": "kinetic energy at the end",
+    "strain": "strain energy at the end",
+    "wall": "energy in the springs of the wall",
+    "defect": "energy residual",
+}
+OF_CONTACT = {"lift": "lift of the zone over V0 t", "pull": "largest pull over largest push"}
+OF_BALANCE = {
+    "energy_residual": "the same over what there was",
+    "momentum_residual": "momentum residual over the impulse",
+    "gap_of_push": "largest gap of a push over V0 t",
+    "steps": "steps",
+}
+
+
+def prediction_text(document: dict[str, Any]) -> str:
+    """What :func:`comparison.predicting.predict_case` found, in the order in which it is asked for."""
+    lines = [
+        f"{REGIMES[document['regime']]} kappa/nu = {document['kappa_over_nu']:.4g} (it spreads below 1).",
+        beam_line(document["model"], document["velocity"]),
+        validity_text(document),
+        *("", _instants(document), ""),
+        *_agreement(document),
+        *wall_lines(document),
+        *_largest(document),
+        *_whole(document),
+    ]
+    return _with_warnings(lines, document)
+
+
+def _with_warnings(lines: Sequence[str], document: dict[str, Any]) -> str:
+    return "\n".join([*lines, *(f"warning: {text}" for text in document["warnings"])])
+
+
+def validity_text(document: dict[str, Any]) -> str:
+    """From when, until when and why no longer the theory holds."""
+    why = LIMITS[document["limited_by"]]
+    if not document["valid_until"]:
+        return f"The theory covers no time: {why}."
+    before = BEFORE.get(document["valid_after"], "")
+    start = f"from {milliseconds(document['valid_from'])} (before, {before}) " if before else ""
+    holds = f"The theory holds to 2 % {start}until {milliseconds(document['valid_until'])}: then {why}."
+    if document["force_until"] >= document["valid_until"]:
+        return holds
+    begin = milliseconds(max(document["force_until"], document["valid_from"]))
+    return f"{holds}\nFrom {begin} on it has no reaction: waves from the ends swing the force."
+
+
+def _instants(document: dict[str, Any]) -> str:
+    rows = document["times"]
+    units = {name: unit_for(unit, (row[name] for row in rows)) for name, (_, unit) in COLUMNS.items()}
+    head = ["time", "", *(f"{title}, {units[name][1]}" for name, (title, _) in COLUMNS.items())]
+    body = []
+    for row in rows:
+        theory = ["-" if row[name] is None else f"{row[name] * scale:.4g}" for name, (scale, _) in units.items()]
+        body.append([milliseconds(row["time"]), "theory" if row["valid"] else "theory, beyond its range", *theory])
+        if "simulation" in row:
+            cells = [_scaled(row["simulation"].get(name), scale) for name, (scale, _) in units.items()]
+            body.append(["", "simulation", *cells])
+    return text_table(head, body, left=(0, 1))
+
+
+def _scaled(found: dict[str, Any] | None, scale: float) -> str:
+    return str(number_from(found).scaled(scale))
+
+
+def _agreement(document: dict[str, Any]) -> list[str]:
+    if not any("simulation" in row for row in document["times"]):
+        return []
+    lines = [
+        "Half contact and reaction of the simulation: means over a tenth of the time before and after. Moment and",
+        "stress: the largest of all steps until then.",
+    ]
+    if (agreement := document["agreement"]) is None:
+        return [*lines, "Theory and simulation do not agree at any of the times compared."]
+    span = f"from {milliseconds(agreement['from'])} to {milliseconds(agreement['until'])}"
+    return [*lines, f"Half length and impulse of theory and simulation agree {span} (within bars and 2 %)."]
+
+
+def _largest(document: dict[str, Any]) -> list[str]:
+    """The largest stress, or without a section the largest moment, each value with its time range."""
+    name, title, unit = largest_of(document["peak_stress"])
+    last, whole = max(document["times"], key=lambda row: row["time"]), document["whole_impact"]
+    scale, unit = unit_for(unit, [document[name]])
+    lines = [f"Largest {title}, {unit}:"]
+    if document["valid_until"]:
+        until = f"until {milliseconds(document['valid_until'])}, when {LIMITS[document['limited_by']]}"
+        lines.append(f"  {until} (theory): {document[name] * scale:.4g}")
+    if last.get("simulation", {}).get(name):
+        until = f"until {milliseconds(last['time'])}"
+        lines.append(f"  {until} (simulation): {_scaled(last['simulation'][name], scale)}")
+    if whole is None:
+        return [*lines, f"  of the whole impact: not known here ({document['no_whole_impact']}); it may be larger"]
+    until = f"until {milliseconds(whole['span'][1])}"
+    lines.append(f"  of the whole impact, {until} (simulation): {_scaled(whole[name], scale)}")
+    lines += [f"  {line}" for line in _over_damping(whole["over_damping"] or (), name, scale)]
+    if document["yield_stress"]:
+        lines.append(f"  the material yields at: {document['yield_stress'] * 1e-6:.4g}")
+    return lines
+
+
+def _over_damping(rows: Sequence[dict[str, Any]], name: str, scale: float) -> list[str]:
+    """How the largest ``name`` of the whole impact moves with the material's damping ratio; nothing without rows."""
+    over = ", ".join(f"{_scaled(row[name], scale)} at {100.0 * row['damping_ratio']:g} %" for row in rows)
+    return [f"of the whole impact, by damping ratio of the material: {over}"] if over else []
+
+
+def _whole(document: dict[str, Any]) -> list[str]:
+    if not (whole := document["whole_impact"]):
+        return []
+    force, said = whole["peak_force"], [f"warning: {w}" for w in whole["warnings"] if w not in document["warnings"]]
+    largest = f"Largest impulse within {milliseconds(whole['push_window'])}: {_scaled(whole['push'], 1.0)} N s. "
+    if force:
+        largest = f"Largest force of the whole impact: {_scaled(force, 1e-3)} kN. "
+    largest += _hardest(whole)
+    if whole["restitution"]["value"] is None and "band" not in whole["restitution"]:
+        return [largest, *said]
+    restitution, last = _scaled(whole["restitution"], 1.0), _scaled(whole["last_contact"], 1e3)
+    ends = f"coefficient of restitution {restitution}, last contact {last} ms (the end of the first hit)."
+    return [largest, f"The whole impact: {ends}", *said]
+
+
+def _hardest(found: dict[str, Any]) -> str:
+    """When and where the wall pushes hardest."""
+    if found["peak_force_time"] is None:
+        return f"A rigid wall has no largest force; its largest push begins at {milliseconds(found['push_time'])}."
+    when, where = milliseconds(found["peak_force_time"]), found["peak_force_place"]
+    return f"The largest force acts at {when}, on average {where:.3g} m from the middle."
+
+
+def wall_lines(document: dict[str, Any]) -> list[str]:
+    """Lines for ``document["wall"]`` of a prediction (:class:`theory.wall_prediction.WallPrediction`); none of a rigid
+    wall."""
+    if (wall := document.get("wall")) is None:
+        return []
+    if wall["peak_force"] is None:
+        return ["The theory has no largest force for this damping of the wall or this kappa/nu."]
+    force, time = 1e-3 * wall["peak_force"], 1e3 * wall["peak_force_time"]
+    lines = [
+        f"Largest force on the wall (theory, an infinite beam): {force:.4g} kN at {time:.3g} ms, over a zone of "
+        f"± {wall['half_contact_length']:.3g} m.",
+        f"Largest penetration {1e3 * wall['penetration']:.3g} mm, pressure {1e-3 * wall['pressure']:.3g} kN/m. "
+        f"Half or twice the stiffness: {force * 0.5**0.25:.4g} or {force * 2.0**0.25:.4g} kN.",
+    ]
+    if wall["spoiled_by"] is not None:
+        lines.append(f"This force does not hold for this beam (limit: {wall['spoiled_by']}): use the simulation.")
+    return lines
+
+
+def bounce_text(found: dict[str, Any], *, verbose: bool = False) -> str:
+    """What ``bentbeam bounce --json`` holds: every number with its error bar, in SI; ``verbose``: also in units of the
+    beam, with places and times."""
+    rows = []
+    for name, about in WHOLE.items():
+        document = found["energy"].get(name) or found.get(name)
+        other = name == "push" and found.get("peak_force") is not None  # of a wall that gives way its force is given
+        if document is None or other or not about.title or (about.more and not verbose):
+            continue
+        within = f" {milliseconds(found['push_window'])}" if name == "push" else ""
+        number = number_from(document)
+        value = in_unit(number_from(found["si"].get(name, document)), about.unit)
+        if about.scale == "energy":
+            value = [str(number.scaled(100.0)), "%"]
+        rows.append([about.title + within, *value, "" if name == "peak_stress" else str(number)])
+    name, what, unit = largest_of(found["peak_stress"])
+    damped = found["over_damping"] or []
+    scale, unit = unit_for(unit, [row[name]["value"] for row in damped])
+    columns = 4 if verbose else 3
+    lines = [
+        text_table(["", "value", "", "beam's units"][:columns], [row[:columns] for row in rows]),
+        "",
+        beam_line(found["model"], found["velocity"]),
+        "± is the error bar; a band is mean ± standard deviation of runs. Energies are shares of the initial energy",
+        "and the work of the loads, at the last contact: the end of the first hit, after which the beam is off the",
+        "wall for a period of its first mode at least. The largest moment and stress are those of the whole motion,",
+        f"from 0 to {1e3 * found['span'][1]:.4g} ms: a period of the lowest mode after the last contact.",
+        _hardest(found),
+        *(f"Largest {what}, {unit}, {line}." for line in _over_damping(damped, name, scale)),
+        *(_checks(found) if verbose else []),
+    ]
+    return _with_warnings(lines, found)
+
+
+def _checks(found: dict[str, Any]) -> list[str]:
+    """What tells an expert how good the numbers are."""
+    names = ("momentum_residual", "energy_of_state", "gap_of_push", "penetration", "pull")
+    momentum, energy, gap, depth, pull = (shown(found[name], ".1g") for name in names)
+    unit, shortest = found["si"]["time_unit"], found["shortest_separation"]
+    return [
+        f"Read from the state: momentum off by {momentum} of the impulse, energy by {energy} at its worst instant,",
+        f"largest gap of a push {gap} V0 t, deepest node {depth} V0 t, largest pull {pull} of the largest push.",
+        f"kappa/nu = {found['kappa_over_nu']:.6g}, {_damping_of(found)}, "
+        f"T* = {unit:.6g} s; {found['steps']} steps, {found['seconds']:.1f} s for all runs.",
+        f"Beam's units: L/2 = EI = mu = V0 = 1. A separation lasts at least {shortest:g} T* ({shortest * unit:.3g} s).",
+    ]
+
+
+def _damping_of(found: dict[str, Any]) -> str:
+    """Of the beam itself: eta/T*, or the hysteretic loss and where it holds."""
+    loss = found["hysteretic_loss"]
+    if loss is None:
+        return f"eta/T* = {found['damping']:.6g}"
+    held = f"{loss['lowest_frequency']:.3g} to {loss['highest_frequency']:.3g} Hz"
+    return f"hysteretic loss {loss['loss']:g} within {100.0 * loss['deviation']:.1g} % from {held}"
+
+
+def run_text(found: dict[str, Any], verbose: bool = False) -> str:
+    """The summary of one run for a reader; ``verbose``: with what tells an expert how good it is."""
+    until = f"until {1e3 * found['time']:.4g} ms"
+    lines = [
+        _compared("half contact length", found["half_contact_length"], "m"),
+        _compared("impulse", found["total_impulse"], "N s"),
+    ]
+    peaks = {"moment": (f"largest bending moment, {until}", "N m"), "stress": (f"largest stress, {until}", "Pa")}
+    if found["peak_force"] is not None:  # of a wall that gives way
+        wall = "wall" if found["peak_force_wall"] == "front" else "opposite wall"
+        at = f"at {1e3 * found['peak_force_time']:.4g} ms and {found['peak_force_place']:.3g} m"
+        peaks["force"] = f"largest force, on the {wall}, {at}", "N"
+        peaks |= {"penetration": ("largest penetration", "m"), "pressure": ("largest pressure", "N/m")}
+    for name, (title, unit) in peaks.items():
+        number = Number(found[f"peak_{name}"], found[f"peak_{name}_error"])
+        lines += [[title, *in_unit(number, unit), ""]] * number.measured
+    if found["restitution"]["value"] is not None:
+        lines.append(_compared("coefficient of restitution", found["restitution"]))
+    lines.append(["lost to steps and mesh", f"{100.0 * found['numerical_loss']:.2g}", "% of the energy", ""])
+    text = [
+        f"{found['path']}, {1e3 * found['time']:.4g} ms after first contact ({found['seconds']:.2g} s for one run)",
+        "",
+        text_table(["", "value", "unit", "theory"], lines + (_of_experts(found) if verbose else [])),
+        "",
+        beam_line(found["model"], found["velocity"]),
+        "± is the error bar by other runs of the same beam; theory: the closed form where it holds to 2 %. Moment and",
+        "stress are the largest of all steps until then; a longer run may show larger ones.",
+    ]
+    if (hold := found["hold"]) and verbose:
+        pulled = "" if hold["pull"] is None else f" and pulled at most {hold['pull']:.2g} of the largest push"
+        held = f"held: contact points were held until {hold['until']:.3g} s{pulled}"
+        text.append(f"{held}; the gap of the zone up to then is imposed")
+    if found["hits"]:
+        text += ["", hits_table(found["hits"], BETWEEN_WALLS)]
+    return _with_warnings(text, found) + (f"\nhistory: {found['file']}" if found["file"] else "")
+
+
+def _compared(title: str, document: dict[str, Any], unit: str = "") -> list[str]:
+    return [title, str(number_from(document)), unit, shown(document["theory"])]
+
+
+def _of_experts(found: dict[str, Any]) -> list[list[str]]:
+    energies = {ENERGIES.get(name, name.replace("_", " ")): value for name, value in found["energy"].items()}
+    lines = [_compared(name, found[name]) for name in ("lambda0", "r0") if found[name]["value"] is not None]
+    lines += [[title, shown(found[name]), "", ""] for name, title in OF_CONTACT.items()]
+    lines += [[title, shown(value), "J", ""] for title, value in energies.items() if value is not None]
+    return lines + [[title, shown(found[name]), "", ""] for name, title in OF_BALANCE.items()]
+
+
+def hits_table(rows: Sequence[Mapping[str, Any]], names: Sequence[str]) -> str:
+    """Hits by their fields ``names``, a line each."""
+    cells = [[row[name] if isinstance(row[name], str) else f"{row[name]:.5g}" for name in names] for row in rows]
+    head = ["hit", *(HIT[name] for name in names)]
+    return text_table(head, [[str(number), *line] for number, line in enumerate(cells, 1)])
