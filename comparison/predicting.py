@@ -21,7 +21,7 @@ from bent_beam.history import REFLECTED, ImpactHistory
 from bent_beam.hysteresis import converges
 from bent_beam.measure.estimators import lift_shares
 from bent_beam.measure.instant import instant
-from bent_beam.measure.numbers import Number
+from bent_beam.measure.numbers import FACTOR, Number
 from bent_beam.measure.whole_impact import peak_times
 from bent_beam.tables import in_keys
 from comparison.bounced import Bounce, documents, with_stress
@@ -69,6 +69,8 @@ def instant_numbers(runs: Runs) -> dict[str, Number]:
     question, reading = runs.question, runs.run.reading
     known: dict[str, dict[str, float]] = {name: {} for name in OF_INSTANT}
     known["half_contact_length"]["element"] = reading["element"]
+    if question.late and converges(question.impact):
+        known["impulse"]["about_the_time"] = _crossings(runs)
     if not question.late:
         impact = question.impact
         # a load, damping, or a wall that gives way may lift the zone rightly; else the scheme has thrown it off, as it
@@ -81,6 +83,16 @@ def instant_numbers(runs: Runs) -> dict[str, Number]:
     if not converges(question.impact):
         known["peak_moment"]["chatter"] = CHATTER * reading["peak_moment"]
     return numbers_of(runs, OF_INSTANT, known)
+
+
+def _crossings(runs: Runs) -> float:
+    """What companions change of the impulse within a tenth of the time around, beyond what they change at the time
+    itself, N s: the curves of two runs cross, and agree there by chance."""
+    own, more = np.array(runs.run.reading["impulse_around"]), 0.0
+    for companion in runs.companions.values():
+        changes = np.abs(np.array(companion.reading["impulse_around"]) - own)
+        more += FACTOR * float(changes.max() - changes[changes.size // 2])
+    return more
 
 
 @dataclass(frozen=True)

@@ -23,6 +23,7 @@ from comparison.workers import run_all
 
 __all__ = ["Run", "Runs", "bands_of", "kept", "numbers_of", "runs_of"]
 
+LEAST = 1e-4  # of a number of one beam: whole beams drawn at random are off by more where companions agree better
 Reading = Callable[[ImpactHistory], dict[str, Any]]  # what it returns is JSON-ready and holds "energy", that at the end
 Progress = Callable[[float], None]
 
@@ -163,7 +164,7 @@ def numbers_of(
             parts = {"no_damping": 2.0 * statistics.stdev(values), **extra.get(name, {})}
             found[name] = Number(statistics.fmean(values), sum(parts.values()), parts=parts)
         else:
-            found[name] = number_of(value, others, extra.get(name))
+            found[name] = number_of(value, others, extra.get(name), least=LEAST)
     return found
 
 

@@ -13,11 +13,20 @@ from typing import Any
 import numpy as np
 
 from bent_beam.history import ImpactHistory
-from bent_beam.measure.moments import AROUND, element_at, first_front, half_contact_length, mean_reaction, moments
+from bent_beam.measure.moments import (
+    AROUND,
+    element_at,
+    first_front,
+    half_contact_length,
+    jump_of_rim,
+    mean_reaction,
+    moments,
+)
 from bent_beam.measure.reduction import peak_moment, wall_peaks
 
 __all__ = ["BEYOND", "Instant", "instant"]
 
+SHARES_AROUND = np.linspace(1.0 - AROUND, 1.0 + AROUND, 9)  # of an instant
 BEYOND = 1.0 + AROUND  # times an instant: how far a run must go to be read there
 
 
@@ -29,7 +38,8 @@ class Instant:
     a tenth of the time before and after, N. impulse : N s. peak_moment, peak_moment_place, peak_moment_time : the
     largest moment of all steps so far, N m, m, s. peak_force, peak_penetration, peak_pressure : of a wall that gives
     way, so far, the force with its time, s, mean |x|, m, and wall ("front", "opposite"); the pressure not of a stop.
-    element : length of the one at the rim, m. lift : the largest inside the zone in the last decade of time, over V₀t.
+    impulse_around : at ``SHARES_AROUND`` of the time, N s. element : length of the one at the rim, m, or how far it
+    jumps. lift : the largest inside the zone in the last decade of time, over V₀t.
     """
 
     half_contact_length: float | None
@@ -44,6 +54,7 @@ class Instant:
     peak_force_wall: str | None
     peak_penetration: float | None
     peak_pressure: float | None
+    impulse_around: tuple[float, ...]
     element: float
     lift: float
 
@@ -79,7 +90,8 @@ def instant(history: ImpactHistory, time: float, *, first_spread: bool = False, 
         peak_force_wall=None if wall is None else wall.wall,
         peak_penetration=None if wall is None else wall.penetration,
         peak_pressure=None if wall is None or begin == end else wall.pressure,
-        element=0.0 if first_spread or front is None else element_at(history, k, front),
+        impulse_around=tuple(np.interp(time * SHARES_AROUND, history.time, history.array("total_impulse")).tolist()),
+        element=0.0 if first_spread or front is None else max(element_at(history, k, front), jump_of_rim(history, k)),
         lift=_lift(history, time) if first_spread and with_lift else 0.0,
     )
 

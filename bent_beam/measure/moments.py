@@ -18,14 +18,15 @@ from numpy.typing import NDArray
 from bent_beam.history import ImpactHistory
 
 __all__ = [
-    "Moments", "element_at", "first_front", "half_contact_length", "local_front", "mean_reaction", "moments",
-    "one_side",
+    "Moments", "element_at", "first_front", "half_contact_length", "jump_of_rim", "local_front", "mean_reaction",
+    "moments", "one_side",
 ]  # fmt: skip
 
 Array = NDArray[np.float64]
 
 ZONE = 0.7  # of the front: what pushes there is what the zone behind the front bears
 AROUND = 0.1  # of the time, before and after
+JUMP = 0.05  # of a rim: what it moves on by between two saved instants is a tenth of it
 PUSH = 1e-9  # of the largest impulse of a contact point: less is round-off
 
 
@@ -211,12 +212,27 @@ def half_contact_length(history: ImpactHistory, k: int) -> float | None:
     """Distance of the outermost push from the middle, m: the median over the saved intervals around instant ``k`` in
     which the wall pushes; ``None`` without one. Nothing is assumed about what presses inside, and a middle that has
     lifted off does not count less."""
+    rims = _rims(history, k)
+    return float(np.median(rims)) if rims.size else None
+
+
+def jump_of_rim(history: ImpactHistory, k: int) -> float:
+    """How far the rim jumps about instant ``k``, m, where the median of :func:`half_contact_length` may as well be the
+    next interval's; 0 where it moves on by less than :data:`JUMP` of itself."""
+    rims = np.sort(_rims(history, k))
+    middle = rims[max((rims.size - 1) // 2 - 1, 0) : rims.size // 2 + 2]
+    widest = float(np.diff(middle).max(initial=0.0))
+    return widest if rims.size and widest > JUMP * middle[-1] else 0.0
+
+
+def _rims(history: ImpactHistory, k: int) -> Array:
+    """Distance of the outermost push from the middle, m, in each saved interval around ``k`` in which there is one."""
     time = history.time
     last = max(int(np.searchsorted(time, (1.0 + AROUND) * time[k], side="right")), k + 1)
     pushed = np.diff(history.array("impulse", slice(_last_tenth(time)[k], last)), axis=0)
     pushes = pushed > PUSH * float(np.abs(history.array("impulse", -1)).max(initial=0.0))
     outermost = np.where(pushes, np.abs(history.contact_positions(k)), -1.0).max(axis=1)
-    return float(np.median(outermost[outermost >= 0.0])) if np.any(outermost >= 0.0) else None
+    return np.asarray(outermost[outermost >= 0.0])
 
 
 def mean_reaction(history: ImpactHistory, at: float) -> float | None:

@@ -103,13 +103,14 @@ def number_of(
     known: Mapping[str, float] | None = None,
     *,
     theory: float | None = None,
+    least: float = LEAST,
 ) -> Number:
     """The number that a run gives. Its bar is :data:`FACTOR` times what each companion changes, and what is known.
 
     others : cause → the value of a run that differs from this one by that cause alone: half of the elements and steps,
         another contact law. What both share is no cause that they can see.
     known : cause → the size of an error that no companion shows: a saved instant, an element, a fit, a viscosity.
-    A bar is :data:`LEAST` of the value, or more. Without a value there is no number; without companions, and where one
+    A bar is ``least`` of the value, or more. Without a value there is no number; without companions, and where one
     of them has no value, there is no bar.
 
     >>> str(number_of(0.51, {"mesh_and_step": 0.508, "contact_law": 0.511}))
@@ -121,8 +122,8 @@ def number_of(
         return Number(value, theory=theory)
     changed = {cause: FACTOR * abs(other - value) for cause, other in others.items() if other is not None}
     parts = changed | dict(known or {})
-    if 0.0 < (found := sum(parts.values())) < LEAST * abs(value):
-        parts["chance"] = LEAST * abs(value) - found
+    if 0.0 < (found := sum(parts.values())) < least * abs(value):
+        parts["chance"] = least * abs(value) - found
     return Number(value, sum(parts.values()), theory, parts=parts)
 
 
