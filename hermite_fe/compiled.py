@@ -14,12 +14,13 @@ import tempfile
 import time
 from collections.abc import Callable
 from contextlib import suppress
+from functools import wraps
 from pathlib import Path
 from traceback import walk_tb
 from typing import Any, TypeVar, cast
 
 import numba
-from numba.extending import register_jitable
+from numba.extending import overload, register_jitable
 from platformdirs import user_cache_path
 
 __all__ = ["compiled", "compiled_within", "recompiling"]
@@ -78,14 +79,23 @@ def compiled_within(function: Function) -> Function:
 
 
 def compiled(function: Function) -> Function:
-    """``function`` compiled at its first call for the types of its arguments, and kept on disk where possible."""
+    """``function`` compiled at its first call for the types of its arguments, and kept on disk where possible.
+
+    Compiled functions that call it take it in as a part, without a way in from Python.
+    """
     before = numba.config.CACHE_DIR  # type: ignore[attr-defined]
     numba.config.CACHE_DIR = str(FOLDER)  # type: ignore[attr-defined]
     try:
-        made = numba.njit(cache=KEPT, **ARITHMETIC)(function)
+        alone = numba.njit(cache=KEPT, **ARITHMETIC)(function)
     finally:
         numba.config.CACHE_DIR = before  # type: ignore[attr-defined]
-    return cast(Function, made)
+
+    @wraps(function)
+    def from_python(*arguments: Any, **named: Any) -> Any:
+        return alone(*arguments, **named)
+
+    overload(from_python, jit_options=cast(Any, ARITHMETIC), strict=False)(lambda *arguments: function)
+    return cast(Function, from_python)
 
 
 def recompiling(call: Callable[[], Result]) -> Result:
