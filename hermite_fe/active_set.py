@@ -7,7 +7,7 @@ whose sign is wrong are exchanged, until none is (a primal–dual active set; Hi
 Optim. 13, 865). All wrong ones are exchanged while their number falls fast. Then, of each row of neighbours that are
 wrong in the same sense, only the worst is exchanged, and both of a row of two: a beam is stiff over a few nodes, so
 that this mends the others. When the number has not fallen for ``PATIENCE`` rounds, only the last is exchanged (Murty's
-rule; Júdice & Pires 1994, Comput. Oper. Res. 21, 587). After ``MOST_ROUNDS`` :func:`solve_one_by_one` starts anew.
+rule; Júdice & Pires 1994, Comput. Oper. Res. 21, 587). After ``MOST_ROUNDS`` :func:`exchange_one` starts anew.
 
 Signs are judged against round-off: p against the terms of its equation, a gap against the largest deflection and slope.
 """
@@ -21,8 +21,7 @@ from hermite_fe.banded import FADED, PAD, copy
 from hermite_fe.compiled import compiled, compiled_within
 from hermite_fe.constraints import Constraints, Rows, Solver, count_rounds, exchange, update
 
-__all__ = ["CYCLING", "NOT_FINITE", "SINGULAR", "SOLVED", "find_wrong", "solve_constrained", "solve_free",
-           "solve_one_by_one"]  # fmt: skip
+__all__ = ["CYCLING", "NOT_FINITE", "SINGULAR", "SOLVED", "find_wrong", "solve_constrained", "solve_free"]
 
 Array = NDArray[np.float64]
 
@@ -148,79 +147,67 @@ def exchange_wrong(solver: Solver, rows: Rows, worst_only: bool) -> None:
 
 
 @compiled
-def solve_constrained(solver: Solver, rows: Rows, conditions: Constraints, b: Array, x: Array) -> int:
+def solve_constrained(
+    solver: Solver, rows: Rows, conditions: Constraints, b: Array, x: Array, most_rounds: int = MOST_ROUNDS
+) -> int:
     """Solve for x (dofs,) and ``conditions.p`` from the guess ``conditions.closed``; returns SOLVED, SINGULAR or
-    CYCLING."""
+    CYCLING. After ``most_rounds`` the fall-back (:func:`exchange_one`) begins anew with all constraints open."""
     begin(solver, rows, conditions)
-    changed, status, rounds = solver.y.size - PAD - 1, CYCLING, 0
-    before = fewest = conditions.p.size + 1
-    patience = PATIENCE
-    while status == CYCLING and rounds < MOST_ROUNDS:
-        count, last = solve_round(solver, rows, conditions, b, x, changed, ROUND_OFF)
-        changed = -1
+    p, everything, status, rounds = conditions.p, solver.y.size - PAD - 1, CYCLING, 0
+    before = fewest = p.size + 1
+    changed, patience, tolerance, latest = everything, PATIENCE, ROUND_OFF, -1
+    while status == CYCLING and rounds < most_rounds + MOST_EXCHANGES * (p.size + 1) and tolerance <= MOST_LENIENT:
+        if rounds == most_rounds:
+            for j in range(p.size):
+                conditions.closed[j], solver.reached[j] = False, 0.0
+            begin(solver, rows, conditions)
+            changed = everything
+        count, last = solve_round(solver, rows, conditions, b, x, changed, tolerance)
         rounds += 1
+        changed = -1 if rounds < most_rounds else everything
         patience = PATIENCE if count < fewest else patience - 1
         if count <= 0:
             status = SOLVED if count == 0 else SINGULAR
+        elif rounds > most_rounds:
+            latest, opened_at_once = exchange_one(solver, rows, p, last, latest)
+            tolerance *= 10.0 if opened_at_once else 1.0
         elif patience > 0:
             exchange_wrong(solver, rows, count > FAST * before)
         else:
             exchange(solver, rows, last)
         before, fewest = count, min(fewest, count)
-    if status == CYCLING:
-        status = solve_one_by_one(solver, rows, conditions, b, x)
     copy(solver.closed, conditions.closed)
-    count_rounds(solver, rounds)
+    count_rounds(solver, min(rounds, most_rounds))
     return status
 
 
 @compiled_within
-def first_to_open(solver: Solver, p: Array, reached: Array) -> tuple[int, float]:
-    """On the straight way from the reactions ``reached`` to p: the constraint of wrong sign whose reaction vanishes
-    first, and the share of the way to there; −1 and 1 where there is none."""
-    opening, share = -1, 1.0
-    for j in range(p.size):
-        if solver.closed[j] and solver.excess[j] > 0.0:
-            here = reached[j] / (reached[j] - p[j])
-            if here < share:
-                opening, share = j, here
-    return opening, share
-
-
-@compiled
-def solve_one_by_one(solver: Solver, rows: Rows, conditions: Constraints, b: Array, x: Array) -> int:
-    """The fall-back: as :func:`solve_constrained`, from no reactions on, with an energy that falls each time.
+def exchange_one(solver: Solver, rows: Rows, p: Array, closing: int, latest: int) -> tuple[int, bool]:
+    """The fall-back: exchange one constraint, so that an energy falls each time. Returns the one that was closed last,
+    and whether it opens at once.
 
     The reactions p ≥ 0 minimise ½pᵀGS⁻¹Gᵀp + pᵀ(GS⁻¹b − c). The constraint that is furthest in the wall is closed;
     where a reaction then turns negative the step goes only as far as to the first that vanishes, and that one opens
     (Lawson & Hanson 1974, Solving Least Squares Problems, ch. 23). No set of closed constraints comes back but by
     round-off: where the one that was closed last opens at once, signs are judged ten times more leniently.
     """
-    conditions.closed[:] = False
-    begin(solver, rows, conditions)
-    p, tolerance, latest = conditions.p, ROUND_OFF, -1
-    reached = np.zeros(p.size)
-    for _ in range(MOST_EXCHANGES * (p.size + 1)):
-        count, closing = solve_round(solver, rows, conditions, b, x, solver.y.size - PAD - 1, tolerance)
-        if count <= 0:
-            return SOLVED if count == 0 else SINGULAR
-        opening, share = first_to_open(solver, p, reached)
-        for j in range(p.size):
-            reached[j] = max(reached[j] + share * (p[j] - reached[j]), 0.0)
-        if opening >= 0:
-            reached[opening] = 0.0
-            exchange(solver, rows, opening)
-            if opening == latest:
-                tolerance *= 10.0
-                if tolerance > MOST_LENIENT:
-                    return CYCLING
-            continue
-        for j in range(p.size):
-            if not solver.closed[j] and solver.excess[j] > solver.excess[closing]:
-                closing = j
-        latest = closing
-        exchange(solver, rows, closing)
-    return CYCLING
+    reached, opening, share = solver.reached, -1, 1.0
+    for j in range(p.size):
+        if solver.closed[j] and solver.excess[j] > 0.0:
+            here = reached[j] / (reached[j] - p[j])
+            if here < share:
+                opening, share = j, here
+    for j in range(p.size):
+        reached[j] = max(reached[j] + share * (p[j] - reached[j]), 0.0)
+    if opening >= 0:
+        reached[opening] = 0.0
+        exchange(solver, rows, opening)
+        return latest, opening == latest
+    for j in range(p.size):
+        if not solver.closed[j] and solver.excess[j] > solver.excess[closing]:
+            closing = j
+    exchange(solver, rows, closing)
+    return closing, False
 
 
 @compiled

@@ -6,6 +6,7 @@ too. A file that cannot be read or written costs the time to compile, never a wr
 
 from __future__ import annotations
 
+import gc
 import hashlib
 import logging
 import os
@@ -14,12 +15,13 @@ import tempfile
 import time
 from collections.abc import Callable
 from contextlib import suppress
+from functools import wraps
 from pathlib import Path
 from traceback import walk_tb
 from typing import Any, TypeVar, cast
 
 import numba
-from numba.extending import register_jitable
+from numba.extending import overload, register_jitable
 from platformdirs import user_cache_path
 
 __all__ = ["compiled", "compiled_within", "recompiling"]
@@ -78,14 +80,23 @@ def compiled_within(function: Function) -> Function:
 
 
 def compiled(function: Function) -> Function:
-    """``function`` compiled at its first call for the types of its arguments, and kept on disk where possible."""
+    """``function`` compiled at its first call for the types of its arguments, and kept on disk where possible.
+
+    Compiled functions that call it take it in as a part, without a way in from Python.
+    """
     before = numba.config.CACHE_DIR  # type: ignore[attr-defined]
     numba.config.CACHE_DIR = str(FOLDER)  # type: ignore[attr-defined]
     try:
-        made = numba.njit(cache=KEPT, **ARITHMETIC)(function)
+        alone = numba.njit(cache=KEPT, **ARITHMETIC)(function)
     finally:
         numba.config.CACHE_DIR = before  # type: ignore[attr-defined]
-    return cast(Function, made)
+
+    @wraps(function)
+    def from_python(*arguments: Any, **named: Any) -> Any:
+        return alone(*arguments, **named)
+
+    overload(from_python, jit_options=cast(Any, ARITHMETIC), strict=False)(lambda *arguments: function)
+    return cast(Function, from_python)
 
 
 def recompiling(call: Callable[[], Result]) -> Result:
@@ -97,6 +108,8 @@ def recompiling(call: Callable[[], Result]) -> Result:
     if not any(FOLDER.rglob("*.nbi")):
         message = "compiling, as always on a new machine or after an update: some twenty seconds"
         logging.getLogger("bent_beam").info(message)
+    collects = gc.isenabled()
+    gc.disable()  # what a compiler makes lives on: to search it for cycles again and again is a seventh of its time
     try:
         return call()
     except Exception as error:
@@ -104,3 +117,6 @@ def recompiling(call: Callable[[], Result]) -> Result:
             raise
         shutil.rmtree(FOLDER, ignore_errors=True)
         return call()
+    finally:
+        if collects:
+            gc.enable()

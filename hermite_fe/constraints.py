@@ -22,7 +22,7 @@ from hermite_fe.compiled import compiled, compiled_within
 from hermite_fe.system import ContactRows, System
 
 __all__ = ["WORST", "Constraints", "ContactLaw", "Rows", "Solver", "ask_for_gaps", "ask_for_rebound", "constraints_of",
-           "count_rounds", "exchange", "find_candidates", "note_complementarity", "refactor_from", "row_times",
+           "count_rounds", "exchange", "find_candidates", "note_complementarity", "row_times",
            "rows_of", "rows_times", "set_bounds", "solver_of", "some_gave_way", "update"]  # fmt: skip
 
 Array = NDArray[np.float64]
@@ -112,12 +112,15 @@ def set_bounds(rows: Rows, law: ContactLaw, closed: Flags, t: float, h: float, l
         least[j] = -h * law.strength[j] if closed[j] else 0.0
     if t >= law.hold_ends or (law.hold == 0 and t >= law.hold_until):
         return
-    front = np.full(2, -1)  # on either side of the first to touch
+    right = left = -1  # the front on either side of the first to touch
     for j in range(closed.size):
-        if closed[j]:
-            front[rows.side[j]] = max(front[rows.side[j]], rows.rank[j])
+        if closed[j] and rows.side[j] == 0:
+            right = max(right, rows.rank[j])
+        elif closed[j]:
+            left = max(left, rows.rank[j])
     for j in range(closed.size):
-        if closed[j] and (t < law.hold_until or front[rows.side[j]] - rows.rank[j] < law.hold):
+        front = right if rows.side[j] == 0 else left
+        if closed[j] and (t < law.hold_until or front - rows.rank[j] < law.hold):
             least[j] = -np.inf
 
 
@@ -181,6 +184,7 @@ class Solver(NamedTuple):
     S, U : (5, unknowns + 2 PAD); sign, fixed : (unknowns + 2 PAD,), see :func:`hermite_fe.banded.factor`.
     right, forward, y : (unknowns + 2 PAD,), the right-hand side, and the solution after either substitution.
     closed : (rows,), the constraints as the factors have them; excess : (rows,), by how much each sign is wrong.
+    reached : (rows,), reactions on the way of the fall-back (:func:`hermite_fe.active_set.exchange_one`).
     stale : (1,), the last unknown whose factors are out of date, −1: none. step : (3,), h (s), c and k of S.
     rounds : (3,), contact problems solved, rounds of all of them, most rounds of one.
     """
@@ -196,6 +200,7 @@ class Solver(NamedTuple):
     y: Array
     closed: Flags
     excess: Array
+    reached: Array
     stale: Places
     step: Array
     rounds: Places
@@ -225,7 +230,8 @@ def solver_of(system: System) -> Solver:
     return Solver(
         unknown=unknown, row_unknown=row_unknown, S=np.zeros((5, size)), U=U, sign=sign, fixed=fixed,
         right=np.zeros(size), forward=np.zeros(size), y=np.zeros(size), closed=np.zeros(m, np.bool_),
-        excess=np.zeros(m), stale=np.array([size - PAD - 1]), step=np.full(3, np.nan), rounds=np.zeros(3, np.int64),
+        excess=np.zeros(m), reached=np.zeros(m), stale=np.array([size - PAD - 1]), step=np.full(3, np.nan),
+        rounds=np.zeros(3, np.int64),
     )  # fmt: skip
 
 
@@ -238,12 +244,6 @@ def check_width(system: System, unknown: Places, row_unknown: Places) -> None:
             tight &= not np.any(bands[k, :-k][unknown[k:] - unknown[:-k] > 4])
     if not tight:
         raise InputError("contact rows must each touch a few neighbouring dofs, at most one row for two dofs")
-
-
-@compiled_within
-def refactor_from(solver: Solver, unknown: int) -> None:
-    """Mark the factors of all unknowns up to ``unknown`` as out of date."""
-    solver.stale[0] = max(solver.stale[0], unknown)
 
 
 @compiled_within
@@ -260,7 +260,7 @@ def exchange(solver: Solver, rows: Rows, j: int) -> None:
     solver.closed[j] = not solver.closed[j]
     k = solver.row_unknown[j]
     solver.fixed[k] = solver.closed[j] == (rows.dofs.shape[1] == 1)
-    refactor_from(solver, k)
+    solver.stale[0] = max(solver.stale[0], k)
 
 
 @compiled_within

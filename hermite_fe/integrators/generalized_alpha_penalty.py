@@ -31,7 +31,6 @@ from hermite_fe.constraints import (
     Constraints,
     constraints_of,
     count_rounds,
-    refactor_from,
     rows_times,
 )
 from hermite_fe.integrators.base import Integrator
@@ -145,7 +144,7 @@ def set_springs(
             if closed[j]:
                 diagonal += g * g * (position_share * spring + velocity_share * damper)
             solver.S[0, solver.unknown[d]] = diagonal
-            refactor_from(solver, solver.unknown[d])
+            solver.stale[0] = max(solver.stale[0], solver.unknown[d])
         if closed[j]:
             b[d] -= g * (spring * (rows.gap[j] + conditions.Gq[j]) + damper * conditions.Gv[j])
 

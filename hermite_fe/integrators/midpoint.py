@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from hermite_fe.active_set import CYCLING, SOLVED, solve_free
 from hermite_fe.banded import PAD, multiply
 from hermite_fe.compiled import compiled, compiled_within
-from hermite_fe.constraints import count_rounds, refactor_from
+from hermite_fe.constraints import count_rounds
 from hermite_fe.elastic_wall import FORCE, FORCE_TIME, PENETRATION, PRESSURE, push
 from hermite_fe.integrators.base import Integrator
 from hermite_fe.integrators.theta import Vectors, begin_step, finish_step, vectors_of
@@ -127,7 +127,7 @@ def solve_step(problem: Problem, state: State, memory: MidpointMemory, t: float,
         for m in range(4):
             for i in range(reach):
                 solver.S[m, i + PAD] = memory.base[m, i + PAD] + 0.5 * h * h * memory.tangent[m, i]
-        refactor_from(solver, reach - 1 + PAD)
+        solver.stale[0] = max(solver.stale[0], reach - 1 + PAD)
         memory.reach[0] = touched
         status = solve_free(solver, rows, right, x)
         if status != SOLVED:

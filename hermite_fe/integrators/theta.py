@@ -139,32 +139,25 @@ def begin_step(
 @compiled_within
 def finish_step(problem: Problem, state: State, p: Array, vectors: Vectors, h: float, theta: float) -> int:
     """Move on by ``vectors.dv`` and add the energies, p : (rows,), impulses of rigid walls; returns the status."""
-    q, v, dv, v_theta, mean_v = state.q, state.v, vectors.dv, vectors.v_theta, vectors.mean_v
+    matrices, q, v, dv, v_theta = problem.matrices, state.q, state.v, vectors.dv, vectors.v_theta
+    mean_v, scratch, loss = vectors.mean_v, vectors.scratch, 0.0
     for i in range(q.size):
         v_theta[i] = v[i] + theta * dv[i]
         mean_v[i] = v[i] + 0.5 * dv[i]
         q[i] += h * v_theta[i]
         v[i] += dv[i]
     state.energy[MATERIAL] += step_branches(state.branches, state.bending, v_theta, h, state.stretch)
-    loss = algorithmic_loss(problem, p, vectors, h, theta)
-    add_energies(problem, state, h, h * dot(vectors.force, v_theta), p, mean_v, v_theta, loss, vectors.scratch)
+    if theta != 0.5:  # Δvᵀ(MΔv − Gᵀp) + h² v_θᵀK v_θ
+        multiply(matrices.M, dv, scratch)
+        loss = dot(dv, scratch)
+        stiff_multiply(matrices.K, matrices.K_sums, v_theta, scratch)
+        loss += h * h * dot(v_theta, scratch)
+        for j in range(p.size):
+            if p[j] != 0.0:
+                loss -= p[j] * row_times(problem.rows, dv, j)
+    loss = (theta - 0.5) * loss
+    add_energies(problem, state, h, h * dot(vectors.force, v_theta), p, mean_v, v_theta, loss, scratch)
     return end_step(state)
-
-
-@compiled_within
-def algorithmic_loss(problem: Problem, p: Array, vectors: Vectors, h: float, theta: float) -> float:
-    """(θ − ½)[Δvᵀ(MΔv − Gᵀp) + h² v_θᵀK v_θ]."""
-    matrices, dv, v_theta, scratch = problem.matrices, vectors.dv, vectors.v_theta, vectors.scratch
-    if theta == 0.5:
-        return 0.0
-    multiply(matrices.M, dv, scratch)
-    loss = dot(dv, scratch)
-    stiff_multiply(matrices.K, matrices.K_sums, v_theta, scratch)
-    loss += h * h * dot(v_theta, scratch)
-    for j in range(p.size):
-        if p[j] != 0.0:
-            loss -= p[j] * row_times(problem.rows, dv, j)
-    return (theta - 0.5) * loss
 
 
 @compiled
@@ -183,9 +176,10 @@ def take_steps(
         else:
             find_candidates(rows, conditions, state.q, state.closed, (1.0 - theta) * h)
             ask_for_rebound(law, conditions, conditions.Gv)
-        status = solve_constrained(solver, rows, conditions, vectors.b, vectors.dv)
-        while status == SOLVED and some_gave_way(conditions):  # what was pulled too hard is let go together
+        while True:  # what was pulled too hard is let go together
             status = solve_constrained(solver, rows, conditions, vectors.b, vectors.dv)
+            if status != SOLVED or not some_gave_way(conditions):
+                break
         if status == SOLVED:
             copy(conditions.closed, state.closed)
             add_impulses(state, conditions)

@@ -10,18 +10,22 @@ from pathlib import Path
 
 import pytest
 from called import command, refused, started
-from histories import rod
+from histories import ROD
 
 from bent_beam import SimulationError
 from bent_beam.files import write_atomically
 from comparison.store import RunStore
 from hermite_fe import HermiteFE
 
+FUZZ = bool(os.environ.get("FUZZ"))
 SEED = os.environ.get("FUZZ_SEED", "0")
 
 
 def match_on(path, *ratios):
     return ["match", "--path", path, *(word for ratio in ratios for word in ("--kappa-over-nu", ratio)), "--json"]
+
+
+KILLED = {"hermite": match_on("hermite", 0.5, 0.3, 2.0), "exudyn": match_on("exudyn", 0.3, 2.0)}
 
 
 def rows(words, folder):
@@ -49,10 +53,40 @@ def kill_when(happened, process):
     process.communicate()
 
 
+@pytest.mark.parametrize(
+    ("path", "kills"),
+    [
+        pytest.param("hermite", 6 if FUZZ else 1, marks=pytest.mark.verify),
+        pytest.param("exudyn", 2, marks=pytest.mark.skipif(not FUZZ, reason="half a minute: FUZZ=1")),
+    ],
+)
+def test_a_killed_match_starts_again_and_ends_with_the_same_rows(path, kills, tmp_path):
+    """Killed with one more run in the store each time; then a run that was kept is torn as well."""
+    words, numbers = KILLED[path], random.Random(f"{SEED} {path}")
+    folders = [tmp_path / str(number) for number in range(kills + 1)]
+    for folder in folders:
+        folder.mkdir()
+    whole, *killed = folders
+    expected, runs = rows(words, whole), len(whole_runs_in(whole))
+    for folder in killed:
+        jobs = ["--jobs", numbers.choice("12")] if FUZZ else []
+        for count in sorted(numbers.sample(range(1, runs), 3 if FUZZ else 1)):
+            kill_when(lambda: len(kept(folder)) >= count, started(*words, *jobs, cwd=folder))  # noqa: B023
+        before = whole_runs_in(folder)
+        assert rows(words, folder) == expected
+        after = whole_runs_in(folder)
+        assert before.items() <= after.items() and len(after) == runs  # none that was kept is computed again
+    torn = numbers.choice(sorted(after))
+    torn.write_bytes(torn.read_bytes()[: numbers.randrange(torn.stat().st_size)])
+    assert rows(words, folder) == expected
+    assert len(whole_runs_in(folder)) == runs
+
+
 @pytest.mark.verify
 def test_a_sweep_of_forty_rows_killed_twice_ends_with_the_same_rows(tmp_path):
-    """Killed with all its workers at moments drawn from the seed; then a run that was kept is torn as well."""
-    case, numbers = rod(tmp_path, element=0.1), random.Random(f"{SEED} sweep")
+    """Killed with all its workers at moments drawn from the seed."""
+    case, numbers = tmp_path / "rod.toml", random.Random(f"{SEED} sweep")
+    case.write_text(ROD + '[mesh]\nkind = "uniform"\nelement_length = 0.1\n')
     words = ["sweep", case, "--vary", "impact.velocity=0.5:2:8", "--vary", "beam.damping_ratio=0.01:0.05:5", "--json"]
     whole, killed = tmp_path / "whole", tmp_path / "killed"
     for folder in (whole, killed):
@@ -64,9 +98,6 @@ def test_a_sweep_of_forty_rows_killed_twice_ends_with_the_same_rows(tmp_path):
     before = whole_runs_in(killed)
     assert rows(words, killed) == expected
     assert before.items() <= whole_runs_in(killed).items()  # none that was kept is computed again
-    torn = numbers.choice(sorted(before))
-    torn.write_bytes(torn.read_bytes()[: numbers.randrange(torn.stat().st_size)])
-    assert rows(words, killed) == expected and len(whole_runs_in(killed)) == len(kept(whole))
 
 
 def test_runs_that_fail_are_reported_with_how_to_ask_again_and_the_rest_goes_on(monkeypatch):

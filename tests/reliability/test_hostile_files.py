@@ -305,7 +305,7 @@ def test_a_file_whose_reading_hangs_or_crashes_is_no_history(tmp_path, monkeypat
     hang, crash = "import signal, time; signal.alarm(1); time.sleep(60)", "import os; os.abort()"
     for start, why in ((hang, "takes longer than"), (crash, "is a crash")):
         monkeypatch.setattr("bent_beam.guarded._child", None)
-        monkeypatch.setattr("bent_beam.guarded.START", start)
+        monkeypatch.setattr("bent_beam.guarded.CHILD", start)
         with pytest.raises(ValueError, match=rf"damaged.nc is not a readable history: to read it {why}"):
             ImpactHistory.load(tmp_path / "damaged.nc")
     monkeypatch.undo()

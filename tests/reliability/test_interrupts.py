@@ -1,12 +1,46 @@
-"""Interrupts: one line that says how to go on, and files whole."""
+"""Interrupts and a disk that is full: one line that says how to go on, or what could not be written; files whole."""
 
+import json
 import os
+import random
 import signal
 import time
+import tomllib
+from pathlib import Path
 
+import h5py
 import pytest
-from called import started
+from called import CASE, started
+from PIL import Image
 
+FUZZ = bool(os.environ.get("FUZZ"))
+SEED = os.environ.get("FUZZ_SEED", "0")
+INTERRUPTS = 2 if FUZZ else 1
+MAIN = """
+from pathlib import Path
+from comparison.command_line.app import main
+Path("ready").touch()
+main()
+"""
+FEW_ROWS = """
+import bent_beam_programs.report.page as page
+import bent_beam_programs.report.rows as rows
+questions = rows.report_questions
+rows.report_questions = lambda *a: [q for q in questions(*a) if q.kappa_over_nu >= 0.4 and q.first is None]
+page.stored_studies = lambda: []
+"""
+COMMANDS = {
+    "match": "match --kappa-over-nu 0.5 --kappa-over-nu 2 --jobs 2 --out out",
+    "simulate": "simulate case.toml --out out/history.nc --save 2000 --overwrite",
+    "simulate on Exudyn": "simulate case.toml --path exudyn --out out/history.nc --overwrite",
+    "bounce": "bounce --kappa-over-nu 2 --damping 0.1 --jobs 2 --out out",
+    "report": "report --path hermite --out out --jobs 2 --overwrite",
+    "gallery": "gallery fig-2.5 fig-2.7a fig-2.9 --out out --format png --format pdf",
+    "study": "study mesh case.toml --path hermite --refine 0.5,1 --out out",
+    "benchmark": "benchmark --solver hermite --problem point-2 --seed 34 --out out",
+    "new": "new out/beam.toml --overwrite",
+}
+SOME = COMMANDS if FUZZ else ["new"]
 SLEEP = """
 import time
 from pathlib import Path
@@ -40,12 +74,20 @@ app.main(["new"])
 """
 
 
-def at_work(program, folder):
+def at_work(program, folder, *words):
     """A program in ``folder``, at work from the moment ``ready`` is there."""
-    process = started(program=program, cwd=folder)
+    (folder / "ready").unlink(missing_ok=True)
+    process = started(*words, program=program, cwd=folder)
     while not (folder / "ready").exists() and process.poll() is None:
         time.sleep(0.002)
     return process
+
+
+def command(name, folder, before=""):
+    folder.mkdir(exist_ok=True)
+    short = CASE.replace("length = 20.0", "length = 2.0\ndamping = 0.01")
+    (folder / "case.toml").write_text(f"{short}[run]\nend_time = 0.01\n")
+    return at_work(before + (FEW_ROWS if name == "report" else "") + MAIN, folder, *COMMANDS[name].split())
 
 
 def nothing_left_of(session):
@@ -58,6 +100,28 @@ def nothing_left_of(session):
         time.sleep(0.02)
     os.killpg(session, signal.SIGKILL)
     return False
+
+
+def written(folder):
+    return [file for file in (folder / "out").rglob("*") if file.is_file()]
+
+
+def readable(file: Path) -> bool:
+    """Whether a file is whole, by its kind."""
+    content = file.read_bytes()
+    match file.suffix:
+        case ".json":
+            json.loads(content)
+        case ".toml":
+            tomllib.loads(content.decode())
+        case ".nc":
+            with h5py.File(file) as history:
+                return bool(history["gap"][()].size)
+        case ".png" | ".gif":
+            with Image.open(file) as picture:
+                picture.load()
+    end = {".html": b"</html>", ".pdf": b"%%EOF"}.get(file.suffix, b"")
+    return bool(content) and file.suffix != ".part" and content.rstrip().endswith(end)
 
 
 @pytest.mark.parametrize("after", [0.0, *(pytest.param(s, marks=pytest.mark.verify) for s in (0.4, 1.5))])
@@ -78,3 +142,54 @@ def test_a_file_that_is_being_written_is_whole_or_not_there(how, tmp_path):
     out, err = process.communicate(timeout=30)
     assert process.returncode == 130 and out == "" and err.count("\n") == 1 and "no half of a file" in err, err
     assert list((tmp_path / "out").iterdir()) == []
+
+
+@pytest.mark.verify
+@pytest.mark.parametrize("name", SOME)
+def test_an_interrupt_leaves_whole_files_and_says_how_to_go_on(name, tmp_path):
+    numbers = random.Random(f"{SEED} interrupted {name}")
+    whole, folder = tmp_path / "whole", tmp_path / "interrupted"
+
+    def finished(place):
+        process, began = command(name, place), time.perf_counter()  # from ``ready`` on
+        out, err = process.communicate(timeout=500)
+        assert process.returncode == 0, err
+        made = sorted(file.relative_to(place) for file in written(place))
+        return time.perf_counter() - began, made, out.count("\n")
+
+    seconds, made, lines = finished(whole)
+    assert made and all(readable(whole / file) for file in made)
+    stopped, tries = 0, 0
+    while stopped < INTERRUPTS and tries < 4 * INTERRUPTS:
+        tries += 1
+        process = command(name, folder)
+        time.sleep(numbers.uniform(0.0, 0.95) * seconds)
+        how = numbers.choice([signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+        if process.poll() is None:
+            os.killpg(process.pid, how)
+        out, err = process.communicate(timeout=60)
+        assert nothing_left_of(process.pid)
+        if process.returncode == 130:
+            stopped += 1
+            said, *more = [line for line in err.splitlines() if "leave --jobs out" not in line]
+            assert "interrupted" in said and "same command again" in said, err
+            assert out.count("\n") in (0, lines)  # the answer stands before figures are written, whole or not at all
+            assert not more or (how == signal.SIGHUP and "resource_tracker" in err), err  # joblib's, which it also ends
+        else:  # it had just finished
+            assert process.returncode == 0, err
+        assert all(readable(file) for file in written(folder))
+        assert not list(folder.rglob("*.part"))
+    assert finished(folder)[1] == made
+    assert stopped or seconds < 1.0
+
+
+@pytest.mark.parametrize("name", SOME)
+def test_a_full_disk_is_told_by_the_name_of_the_file_and_takes_none_of_those_before(name, tmp_path):
+    """No file of this process and its children may grow beyond 100 bytes: kernels and runs cannot be kept either."""
+    full = "import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100))\n"
+    process = command(name, tmp_path, full)
+    _, err = process.communicate(timeout=500)
+    assert process.returncode in (2, 3) and "Traceback" not in err, err
+    assert "out" in err and "File too large" in err, err
+    assert not [file for file in written(tmp_path) if file.suffix == ".part" or not file.stat().st_size]
+    assert nothing_left_of(process.pid)
