@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import chain, count
 from pathlib import Path
 from typing import Annotated
 
@@ -172,11 +173,9 @@ def _kept(error: SimulationError, out: Path | None) -> SimulationError:
     """The same error, saying where the partial history was kept."""
     if error.history is None:
         return error
-    target = Path("partial.nc") if out is None else out.with_name(out.stem + ".partial.nc")
-    number = 1
-    while target.exists():
-        number += 1
-        target = target.with_name(f"{target.name.split('.')[0]}.partial-{number}.nc")
+    place, name = (Path(), "partial") if out is None else (out.parent, f"{out.stem}.partial")
+    names = chain([name], (f"{name}-{number}" for number in count(2)))
+    target = next(file for file in (place / f"{one}.nc" for one in names) if not file.exists())
     where = f"is in {target}"
     try:
         error.history.save(target)

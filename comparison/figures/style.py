@@ -114,7 +114,8 @@ def save(fig: Figure, out: Path, name: str, formats: Sequence[str] = ("png",)) -
         if kind not in FORMATS:
             raise ValueError(f"format must be one of {', '.join(FORMATS)} (got {kind!r})")
         stream = BytesIO()
-        fig.savefig(stream, format=kind, metadata=FORMATS[kind])
+        with matplotlib.rc_context({name: RC[name] for name in ("svg.hashsalt", "svg.fonttype", "pdf.fonttype")}):
+            fig.savefig(stream, format=kind, metadata=FORMATS[kind])
         files.append(out / f"{name}.{kind}")
         write_atomically(files[-1], stream.getvalue())
     return files

@@ -10,7 +10,7 @@ from histories import pushed_until, rod
 
 from bent_beam.cases import load_case
 from comparison import bounce, predict
-from comparison.figures.history import _window
+from comparison.figures.history import _window, draw_history
 
 WALLS = {
     "rigid": "",
@@ -73,3 +73,11 @@ def test_predict_writes_document_and_picture_and_refuses_without_a_simulation(tm
     assert "nothing" in refused("predict", file, "--theory-only", "--out", tmp_path / "none")
     with pytest.raises(ValueError, match="nothing"):
         predict(file, theory_only=True).plot()
+
+
+def test_a_picture_has_the_same_bytes_when_it_is_drawn_again(tmp_path):
+    """In each format; without time stamps and with the names of its parts given."""
+    for folder in (tmp_path / "a", tmp_path / "b"):
+        draw_history(pushed_until(0.5), folder, "run", ["png", "svg", "pdf"])
+    files = sorted((tmp_path / "a").iterdir())
+    assert len(files) == 3 and all(file.read_bytes() == (tmp_path / "b" / file.name).read_bytes() for file in files)

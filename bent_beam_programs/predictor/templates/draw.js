@@ -12,7 +12,7 @@ const Draw = (() => {
     return String(Number(value.toPrecision(digits))).replace("-", "−");
   }
 
-  /** Both to the first digit of the error, as Python writes them (measure/measured.py). */
+  /** Both to the first digit of the error, as Python writes them (bent_beam/measure/numbers.py). */
   function bar(value, error) {
     if (!(error > 0)) return `${text(value, 6)} ± ${text(error, 1)}`;
     const first = Number(error.toExponential(0)), size = Math.max(Math.abs(value), first);
