@@ -111,6 +111,7 @@ def whole_numbers(made: Runs) -> dict[str, Number | Band]:
     names = NUMBERS if reading["peak_force"] is None else (*NUMBERS, "peak_force")
     known = {name: {"saved_instants": 0.5 * reading["spacing"]} for name in TIMES}
     known["restitution"] = {"saved_instants": reading["drift"]}
+    known["push"] = {"saved_instants": reading["push_rise"]}
     found = dict(bands_of(made, names) if made.question.band else numbers_of(made, names, known))
     if not all(run.reading["left"] for run in made.every):
         found |= {name: Number() for name in FINAL}

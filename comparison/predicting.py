@@ -26,7 +26,7 @@ from bent_beam.measure.whole_impact import peak_times
 from bent_beam.tables import in_keys
 from comparison.bounced import Bounce, documents, with_stress
 from comparison.bouncing import bounce
-from comparison.doubts import doubts, energy_at_end, steepness
+from comparison.doubts import doubts, energy_at_end
 from comparison.questions import Question
 from comparison.readable import write_answer
 from comparison.runs import Runs, numbers_of, runs_of
@@ -185,7 +185,7 @@ def predict_case(
     cannot finish.
     """
     impact, method = case.impact, None if theory_only else case.method(PATH)
-    warnings = [*steepness(impact), *doubts(impact, case.section)]
+    warnings = doubts(impact, case.section)
     last = max(times)
     if method is None or last <= 0.0:
         prediction = predict(impact, times, section=case.section)

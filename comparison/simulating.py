@@ -70,7 +70,7 @@ class Simulated:
             "restitution": self._beside("restitution", None),
             "lambda0": self._beside("lambda0" if row else "", infinite.lambda0 if infinite else None),
             "r0": self._beside("r0" if row else "", infinite.r0 if infinite else None),
-            "lift": float(moments(history).lift[-1]),
+            "lift": None if impact.off_centre else float(moments(history).lift[-1]),
             "pull": pull_of(history),
             "hold": hold_of(history),
             **self._with_error("peak_moment"),

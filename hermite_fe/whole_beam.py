@@ -39,7 +39,7 @@ __all__ = ["ELEMENTS", "begins", "element", "scheme", "step"]
 FEWEST_IN_FRONT = 4.0  # with fewer even elements the early impulse of one point is off by more than 1 %
 ELEMENTS = 200  # of a half beam that is followed until it has left
 SHEARED_ELEMENTS, SHEARED_STEP = 100, 0.0125  # likewise with shear; step, T*, over the element's share of the half beam
-HARD = 2.0  # times as many, and steps: where a front is thin or damping small
+HARD = 2.0  # times as many, and steps: where a front is thin or damping small; in the first instants where it is felt
 THICK, DAMPED = 0.35, 3e-4  # κ/ν and η/T* from which on neither is
 ONE_POINT = 2.0  # κ/ν from which on a whole impact with shear is that of one point
 LARGEST_ELASTIC = 0.25  # of ℓ_k: element before a wall that gives way
@@ -54,16 +54,21 @@ def begins(impact: Impact, end_time: float) -> bool:
     return zone and end_time <= BEFORE_WAVES_RETURN * impact.slow_time_scale
 
 
+def damping_is_felt(impact: Impact, element: float) -> bool:
+    """Whether elements of this length, m, resolve how far damping lets bending run, √(cη): the bow then lifts by
+    itself. A beam with shear is not asked."""
+    return impact.shear_stiffness is None and impact.wave_constant * impact.damping >= element**2
+
+
 def scheme(impact: Impact, contact: Contact, element: float, end_time: float | None) -> Integrator:
     """The integrator that is chosen for a whole beam on elements of this length, m.
 
     For a run that only :func:`begins` it is one that loses what the unresolved start would throw off the wall, unless
-    the elements resolve how far damping lets bending run, √(cη): then the bow lifts by itself.
+    damping is felt.
     """
     begin, end = impact.wall_span
     sheared = impact.shear_stiffness is not None
-    felt = not sheared and impact.wave_constant * impact.damping >= element**2
-    if end_time is not None and begins(impact, end_time) and not felt:
+    if end_time is not None and begins(impact, end_time) and not damping_is_felt(impact, element):
         return scheme_for(impact, contact).with_steps(LONGEST_FIRST_STEP * end_time, LARGEST_STEP)
     pressed = impact.net_load * impact.slow_time_scale > PRESSED * impact.mass_per_length * impact.velocity
     point = (impact.kappa_over_nu >= ONE_POINT or begin == end) and not pressed
@@ -90,7 +95,10 @@ def element(impact: Impact, end_time: float | None) -> float:
                 f"that is not one at the middle of a free beam before one long wall (got {end_time!r}); give [mesh], "
                 "or a shorter beam.length"
             )
-        elements = max(elements, min(ELEMENTS_IN_FRONT * in_half, MOST_ON_A_BEAM))
+        elements = max(elements, ELEMENTS_IN_FRONT * in_half)
+        if damping_is_felt(impact, impact.half_length / elements):
+            elements *= HARD  # the moment of a bow that lifts by itself needs them
+        elements = min(elements, MOST_ON_A_BEAM)
     wall = wall_scales(impact)
     longest = math.inf if wall is None else max(LARGEST_ELASTIC * wall.length, impact.half_length / MOST_ON_A_BEAM)
     return min(impact.half_length / elements, longest)

@@ -209,9 +209,9 @@ def first_front(history: ImpactHistory, k: int) -> float:
 
 
 def half_contact_length(history: ImpactHistory, k: int) -> float | None:
-    """Distance of the outermost push from the middle, m: the median over the saved intervals around instant ``k`` in
-    which the wall pushes; ``None`` without one. Nothing is assumed about what presses inside, and a middle that has
-    lifted off does not count less."""
+    """Distance of the outermost push from the first touch, m: the median over the saved intervals around instant ``k``
+    in which the wall pushes; ``None`` without one. Nothing is assumed about what presses inside, and a middle that
+    has lifted off does not count less."""
     rims = _rims(history, k)
     return float(np.median(rims)) if rims.size else None
 
@@ -226,12 +226,13 @@ def jump_of_rim(history: ImpactHistory, k: int) -> float:
 
 
 def _rims(history: ImpactHistory, k: int) -> Array:
-    """Distance of the outermost push from the middle, m, in each saved interval around ``k`` in which there is one."""
+    """Distance of the outermost push from the first touch, m, in each saved interval around ``k`` that has one."""
     time = history.time
     last = max(int(np.searchsorted(time, (1.0 + AROUND) * time[k], side="right")), k + 1)
     pushed = np.diff(history.array("impulse", slice(_last_tenth(time)[k], last)), axis=0)
     pushes = pushed > PUSH * float(np.abs(history.array("impulse", -1)).max(initial=0.0))
-    outermost = np.where(pushes, np.abs(history.contact_positions(k)), -1.0).max(axis=1)
+    distances = np.abs(history.contact_positions(k) - history.impact.first_touch)
+    outermost = np.where(pushes, distances, -1.0).max(axis=1)
     return np.asarray(outermost[outermost >= 0.0])
 
 
@@ -247,7 +248,7 @@ def mean_reaction(history: ImpactHistory, at: float) -> float | None:
 
 
 def element_at(history: ImpactHistory, k: int, place: float) -> float:
-    """Length of the element at ``place`` from the middle, m: a half length is no surer."""
-    x = np.unique(np.abs(history.positions(k)))
-    at = min(max(int(np.searchsorted(x, place)), 1), x.size - 1)
+    """Length of the element at ``place`` from the first touch, m: a half length is no surer."""
+    x = history.positions(k)
+    at = min(max(int(np.searchsorted(x, history.impact.first_touch + place)), 1), x.size - 1)
     return float(x[at] - x[at - 1])

@@ -52,7 +52,8 @@ class WholeImpact:
         loads, altogether one.
     peak_force : on the zone of a wall that gives way, over μℓV₀/T*, with its time and its mean |x|/ℓ; ``None`` of a
         rigid one. push : the largest impulse within :data:`WINDOW` T*, over μℓV₀; push_time : when the wall begins
-        to push within that.
+        to push within that; push_rise : its part that lies between saved instants, where a
+        wall gives way and the force is smooth.
     supplied : the initial energy and the work of the loads until then, J.
     energy_defect : what the independently computed terms of the budget leave, of the initial energy; energy_gain : the
         largest rise of the energy, what springs of the wall hold included, above what loads have worked, likewise.
@@ -75,6 +76,7 @@ class WholeImpact:
     peak_force_place: float | None
     push: float
     push_time: float
+    push_rise: float
     supplied: float
     spacing: float
     drift: float
@@ -121,6 +123,7 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
     work = initial + history.energy("work_of_loads")
     gained = np.interp(time + WINDOW * unit, time, total) - total
     k = int(np.argmax(gained))
+    rise = _rise_between(gained, k) if impact.wall_stiffness is not None else 0.0
     begin = k + max(int(np.argmax(total[k:] > total[k])) - 1, 0)
     kept, supplied = (float(np.interp(last, time, values)) for values in (energy, work))
     restitution = _mean_velocity(history, end) / -speed if impact.supported else impulse - load * last - 1.0
@@ -140,8 +143,9 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
         peak_force=None if wall is None else 2.0 * wall.force * unit / (mass * speed),
         peak_force_time=None if wall is None else wall.time / unit,
         peak_force_place=None if wall is None or wall.place is None else wall.place / impact.half_length,
-        push=2.0 * float(gained.max()) / (mass * speed),
+        push=2.0 * (float(gained[k]) + rise) / (mass * speed),
         push_time=float(time[begin]) / unit,
+        push_rise=2.0 * rise / (mass * speed),
         supplied=supplied,
         spacing=float(time[end] - time[end - 1]) / unit,
         drift=0.5 * abs(load) * float(time[end] - time[end - 1]),
@@ -151,6 +155,15 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
         energy_gain=float(np.max(np.diff(energy + held - work), initial=0.0)) / initial,
         left=left,
     )
+
+
+def _rise_between(values: Array, k: int) -> float:
+    """How much the parabola through a largest value and its neighbours rises above it."""
+    if not 0 < k < values.size - 1:
+        return 0.0
+    before, largest, after = (float(value) for value in values[k - 1 : k + 2])
+    bent = 2.0 * largest - before - after
+    return (after - before) ** 2 / (8.0 * bent) if bent > 0.0 else 0.0
 
 
 def peak_times(found: WholeImpact, impact: Impact) -> dict[str, Any]:

@@ -11,6 +11,8 @@ from typing import Any
 from bent_beam.as_json import plain
 from bent_beam.measure.numbers import Number
 
+__all__ = ["FIRST_ORDER", "LOADED", "PART", "WORDS", "Finding", "Score", "Symptom"]
+
 PART = 0.01  # the judge's limit: a hundredth, of the exact value, of the wall's impulse, of the way V₀τ
 FIRST_ORDER = 0.05  # of max(1, |exact|): the limit of λ₁ and r₁, which are differences of two runs
 WORDS = {"pull": "adhesive", "penetration": "leaky", "lift": "lifted", "noise_in_time": "unsettled"}

@@ -27,6 +27,8 @@ from typing import Any, NamedTuple
 from bent_beam.checks import between, finite, non_negative, positive, shortened
 from bent_beam.errors import InputError
 
+__all__ = ["LADDER", "SCHEMA", "Problem", "document", "first_order_problem", "problem", "problem_text", "shipped_ids"]
+
 PROBLEMS = Path(__file__).with_name("problems.json")
 SCHEMA = "beam-impact/2"
 END = 0.1  # τ; the leading order is self-similar, any end will do (the thesis ends here)

@@ -30,6 +30,8 @@ from bent_beam_programs.open_benchmark.result import (
     result_from_fields,
 )
 
+__all__ = ["load_result"]
+
 COLUMNS = ("tau", *SERIES)
 BESIDE = (*TEXTS, *ARRAYS, "events")  # names allowed in the JSON file beside a table
 NUMBER = re.compile(r"\s*[-+]?(?:(?:\d+\.?\d*|\.\d+)(?:[ed][-+]?\d+)?|nan|inf(?:inity)?)\s*", re.A | re.I)

@@ -21,6 +21,8 @@ from numpy.typing import NDArray
 from bent_beam.checks import shortened
 from bent_beam_programs.open_benchmark.problem import Problem, problem
 
+__all__ = ["OUTCOMES", "Result", "ResultError", "result_from_fields"]
+
 Array = NDArray[np.float64]
 
 OUTCOMES = (

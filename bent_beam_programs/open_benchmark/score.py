@@ -21,6 +21,8 @@ from bent_beam_programs.open_benchmark.references import reference
 from bent_beam_programs.open_benchmark.result import Array, Result, ResultError
 from bent_beam_programs.open_benchmark.symptoms import last_push, readings
 
+__all__ = ["resolution_ignored", "score"]
+
 
 def score(result: Result, base: Result | None = None) -> Score:
     """Score one result. ``base``: the same code's result of the problem without loads, for λ₁ and r₁.

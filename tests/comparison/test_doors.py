@@ -77,6 +77,19 @@ def check(case: Case, share: float) -> None:
         assert same(force, whole["si"]["peak_force"])
 
 
+def test_every_door_warns_of_a_steep_bow(tmp_path: Path) -> None:
+    """Not in units of the problem itself, EI = μ = V₀ = 1, whose amplitude is free."""
+    file = tmp_path / "bow.toml"
+    for unit, steep in ((2.0, True), (1.0, False)):
+        file.write_text(f"[beam]\nbending_stiffness = {unit}\nmass_per_length = 1.0\nlength = 2.0\ncurvature = 1.0\n"
+                        "damping_ratio = 0.05\n[impact]\nvelocity = 1.0\n")  # fmt: skip
+        case = load_case(file)
+        doors = predict(case, 0.01), bounce(case), simulate_case(case, "hermite", until=0.01)
+        for found in doors:
+            said = any("slope at its ends" in line for line in found.to_dict()["warnings"])
+            assert said == steep, type(found)
+
+
 def test_every_door_gives_the_same_number_with_the_same_bar(tmp_path: Path) -> None:
     *_, elastic, tensioned = drawn(tmp_path, 3, coarse=True)
     check(elastic, 0.02)

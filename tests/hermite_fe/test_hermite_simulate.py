@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from bent_beam import Impact, ImpactHistory, SimulationError
 from bent_beam.measure.estimators import leading_order
+from bent_beam.measure.instant import instant
 from bent_beam.measure.moments import moments
 from bent_beam.meshes import UniformMesh
 from hermite_fe import INTEGRATORS, HermiteFE, simulate
@@ -165,6 +166,8 @@ def test_an_early_impact_of_another_kind_has_the_impulse_of_one_at_the_middle(ka
     one, two = (HermiteFE().simulate(impact, end_time=0.1, save=20) for impact in impacts)
     assert two.array("total_impulse")[-1] == pytest.approx(one.array("total_impulse")[-1], rel=4e-3)
     assert two.warnings == []
+    lengths = [instant(history, 0.09).half_contact_length for history in (one, two)]
+    assert lengths[1] == pytest.approx(lengths[0], rel=0.03, abs=0.02)
 
 
 def test_an_early_impact_beside_the_middle_is_refused_where_even_elements_would_be_too_many() -> None:

@@ -221,3 +221,12 @@ def test_the_largest_force_is_told_in_half_the_beams_momentum_a_period() -> None
     assert whole_impact(ImpactHistory.of(run.dataset.assign(peaks))).peak_force == pytest.approx(5.8)
     told = dataclasses.replace(whole_impact(run), peak_force_time=0.5, peak_force_place=0.25, push_time=0.125)
     assert list(peak_times(told, HEAVY).values()) == pytest.approx([9.0, 0.75, 2.25, 0.18])
+
+
+def test_the_largest_push_of_a_wall_that_gives_way_lies_between_saved_instants() -> None:
+    """The force is smooth: with eight times fewer instants the impulse within a hundredth of T* is the same within
+    2e-4, and would be short by 1e-3 at the instants themselves."""
+    impact = Impact.whole_beam(0.5, relative_damping=1e-2).replace(wall_stiffness=2e4)
+    fine, coarse = (whole_impact(HermiteFE().simulate_to_separation(impact, save=save)) for save in (8000, 1000))
+    assert coarse.push == pytest.approx(fine.push, rel=2e-4)
+    assert coarse.push - coarse.push_rise < (1.0 - 1e-3) * fine.push
