@@ -167,7 +167,7 @@ class Coverage:
     def of(cls, points: list[Point], runs: int, lost: float) -> Coverage:
         """What the points say."""
         share = float(np.mean([p.error <= p.bar for p in points]))
-        return cls(runs, share, float(np.median([p.bar / max(p.error, 1e-12) for p in points])), lost, points)
+        return cls(runs, share, float(np.nanmedian([p.bar / max(p.error, 1e-12) for p in points])), lost, points)
 
     @property
     def misses(self) -> list[Point]:
