@@ -28,10 +28,11 @@ ROWS = (  # name, words, yardstick, goal
     ("predict", ["predict", "cases/drill_pipe.toml", "--json"], "numpy, scipy.special, typer", 1.6),
     ("--help", ["--help"], "typer", 2.5),
 )
+README = [word for kappa in ("0.01", "0.1", "0.25", "0.5", "0.8") for word in ("--kappa-over-nu", kappa)]
 WAITS = (  # name, words (OUT: the folder), goal
     ("predict tube", ["predict", "cases/tube.toml"], 3.0),
     ("bounce tube", ["bounce", "cases/tube.toml"], 3.0),
-    ("match", ["match"], 12.0),
+    ("match of the README", ["match", "--methods", "cases/methods/one_of_each.toml", *README], 12.0),
     ("report", ["report", "--jobs", "2", "--out", "OUT/report"], 90.0),
     ("gallery", ["gallery", "--jobs", "2", "--out", "OUT/gallery"], 300.0),
 )
