@@ -16,7 +16,7 @@ from bent_beam.measure.numbers import Band, Number
 from bent_beam.measure.whole_impact import SHORTEST_SEPARATION, WINDOW, WholeImpact, peak_times
 from bent_beam.method import settings_of
 from bent_beam.versions import versions
-from comparison.doubts import doubts, energy_residual, numerical_loss
+from comparison.doubts import doubts, energy_residual, numerical_loss, wide_bars
 from comparison.readable import write_answer
 from comparison.runs import Runs
 from comparison.texts import bounce_text
@@ -143,7 +143,7 @@ class Bounce:
                 "the loads bring the beam back to the wall; these numbers are those of the first hit, later ones may "
                 "be larger (--hits follows more)"
             )
-        return [*found, *self.runs.warnings, *self.balance.warnings, *others]
+        return [*found, *wide_bars(self.numbers), *self.runs.warnings, *self.balance.warnings, *others]
 
     def to_dict(self) -> dict[str, Any]:
         """The contract of ``bentbeam bounce --json``."""

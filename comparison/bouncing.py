@@ -19,7 +19,7 @@ from bent_beam.checks import finite
 from bent_beam.free_flight import LOWEST_PERIOD
 from bent_beam.hysteresis import converges
 from bent_beam.measure.balance import balance_of
-from bent_beam.measure.numbers import Band, Number
+from bent_beam.measure.numbers import FACTOR, Band, Number
 from bent_beam.measure.whole_impact import Hit, hits, whole_impact
 from bent_beam.method import Method, for_whole_beam, separation_times
 from comparison.bounced import Bounce
@@ -112,10 +112,22 @@ def whole_numbers(made: Runs) -> dict[str, Number | Band]:
     known = {name: {"saved_instants": 0.5 * reading["spacing"]} for name in TIMES}
     known["restitution"] = {"saved_instants": reading["drift"]}
     known["push"] = {"saved_instants": reading["push_rise"]}
+    known["last_contact"]["contacts"] = _shifted(made)
     found = dict(bands_of(made, names) if made.question.band else numbers_of(made, names, known))
     if not all(run.reading["left"] for run in made.every):
         found |= {name: Number() for name in FINAL}
     return found
+
+
+def _shifted(made: Runs) -> float:
+    """What companions change of the beginning of the last contact, T*: runs that part before it end it together by
+    chance. Where it is two contacts in one run and one in another, no more than the time between those."""
+    own, shifts = made.run.reading["contacts"], 0.0
+    for companion in made.companions.values():
+        other = companion.reading["contacts"]
+        apart = [found[-1][0] - found[-2][1] for found in (own, other) if len(found) > 1]
+        shifts += FACTOR * min([abs(own[-1][0] - other[-1][0]), *apart])
+    return shifts
 
 
 def follow_hits(impact: Impact, method: Method, count: int, *, first: ImpactHistory) -> list[Hit]:

@@ -5,19 +5,28 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from typing import Any
 
 from bent_beam.history import LOSSES, ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.loads import unmodelled
+from bent_beam.measure.numbers import Number
 from bent_beam.section import Section
+from comparison.whole_numbers import WHOLE
 
-__all__ = ["comparable", "doubts", "energy_at_end", "energy_residual", "loss_warnings", "numerical_loss"]
+__all__ = [
+    "comparable", "doubts", "energy_at_end", "energy_residual", "loss_warnings", "numerical_loss",
+    "wide_bars",
+]  # fmt: skip
 
 Energies = Mapping[str, float | None]
 
 STEEP = 0.3  # slope of the bow at the beam's ends from which the small-slope theory deserves a warning
 STRAIGHTENED = 0.1  # N L²/(π² EI) from which a tension deserves one
 NOTABLE_LOSS = 0.02  # of the initial energy, likewise
+WIDE, LEAST_RESTITUTION = 0.1, 0.3  # of a number, an error bar, likewise; a smaller restitution counts as this
+MAY_BE_WIDE = {name: WHOLE[name].title for name in ("restitution", "impulse", "peak_moment", "peak_force")}
+MAY_BE_WIDE |= {"half_contact_length": "half contact length"}
 
 
 def doubts(impact: Impact, section: Section | None) -> list[str]:
@@ -87,3 +96,13 @@ def loss_warnings(energy: Energies) -> list[str]:
     return [f"steps, mesh and grid viscosity took {100.0 * share:.2g} % of the initial energy"] * (
         share >= NOTABLE_LOSS
     )
+
+
+def wide_bars(numbers: Mapping[str, Any]) -> list[str]:
+    """A warning of the numbers whose error bars are wide; a band is none."""
+    wide = []
+    for name, title in MAY_BE_WIDE.items():
+        number, least = numbers.get(name), LEAST_RESTITUTION if name == "restitution" else 0.0
+        if isinstance(number, Number) and number.value is not None and number.bar is not None:
+            wide += [title] * (number.bar > WIDE * max(abs(number.value), least))
+    return [f"wide error bars: {', '.join(wide)}; elements, steps and contact law decide here"] if wide else []

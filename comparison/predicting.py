@@ -26,9 +26,9 @@ from bent_beam.measure.whole_impact import peak_times
 from bent_beam.tables import in_keys
 from comparison.bounced import Bounce, documents, with_stress
 from comparison.bouncing import bounce
-from comparison.doubts import doubts, energy_at_end
+from comparison.doubts import doubts, energy_at_end, wide_bars
 from comparison.questions import Question
-from comparison.readable import write_answer
+from comparison.readable import milliseconds, write_answer
 from comparison.runs import Runs, numbers_of, runs_of
 from comparison.store import RunStore
 from comparison.texts import prediction_text
@@ -202,6 +202,9 @@ def predict_case(
     simulated = [numbers_at(found.get(time), case) for time in times]
     # what runs say, but for their ends: the theory beside them says how long those do not matter
     warnings += [line for runs in found.values() for line in runs.warnings if REFLECTED not in line]
+    warnings += [
+        f"at {milliseconds(time)}: {line}" for time, numbers in zip(times, simulated) for line in wide_bars(numbers)
+    ]
     if last > latest:
         warnings.append(f"times beyond {latest:.4g} s ({LATEST:g} T*) are not simulated here: bentbeam simulate")
     impact_found: Bounce | None = None

@@ -19,7 +19,15 @@ from bent_beam.measure.reduction import hold_of, pull_of
 from bent_beam.measure.whole_impact import hits
 from comparison.bounced import Bounce, scales
 from comparison.bouncing import whole_numbers, whole_reading
-from comparison.doubts import comparable, doubts, energy_at_end, energy_residual, loss_warnings, numerical_loss
+from comparison.doubts import (
+    comparable,
+    doubts,
+    energy_at_end,
+    energy_residual,
+    loss_warnings,
+    numerical_loss,
+    wide_bars,
+)
 from comparison.predicting import instants_reading, numbers_at
 from comparison.questions import Question
 from comparison.runs import Runs, runs_of
@@ -92,7 +100,7 @@ class Simulated:
             "warnings": [
                 *doubts(impact, section), *history.warnings, *self._reflected(infinite, end),
                 *loss_warnings(energy), *balance.warnings,
-                *([BAND] if until is None and not converges(impact) else ()), *self.runs.lost,
+                *wide_bars(self.numbers), *([BAND] if until is None and not converges(impact) else ()), *self.runs.lost,
             ],
             "file": None if file is None else str(file),
         }  # fmt: skip

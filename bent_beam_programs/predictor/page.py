@@ -7,6 +7,7 @@ from pathlib import Path
 
 from bent_beam.files import write_atomically
 from bent_beam_programs.predictor.coefficients import coefficients
+from comparison.doubts import LEAST_RESTITUTION, STEEP, WIDE
 from comparison.readable import BEAMS, BEFORE, LIMITS, REGIMES
 from theory import contact_parameters, shear, validity, wall_prediction
 from theory.second_order import second_order
@@ -17,6 +18,10 @@ SIMULATION = ("elements.js", "contact.js", "solver.js", "answer.js", "worker.js"
 PAGE = ("answer.js", "draw.js", "form.js", "words.js", "plots.js", "motion.js", "view.js")
 WORDS = {"regimes": REGIMES, "limits": LIMITS, "before": BEFORE, "beams": BEAMS}
 """What ``bentbeam predict`` says of contact, theory and beam."""
+
+
+DOUBTS = {"wide": WIDE, "least_restitution": LEAST_RESTITUTION, "steep": STEEP}
+"""From when on ``bentbeam bounce`` warns."""
 
 
 def constants() -> dict[str, float]:
@@ -44,7 +49,7 @@ def constants() -> dict[str, float]:
 
 def script(names: tuple[str, ...] = (*MODEL, *PAGE)) -> str:
     """The scripts, after the numbers and words that they read."""
-    data = {"COEFFICIENTS": coefficients(), "VALIDITY": constants(), "WORDS": WORDS}
+    data = {"COEFFICIENTS": coefficients(), "VALIDITY": constants(), "WORDS": WORDS, "DOUBTS": DOUBTS}
     numbers = [
         f"const {name} = {json.dumps(value, separators=(',', ':'), ensure_ascii=False)};"
         for name, value in data.items()

@@ -8,7 +8,7 @@ import pytest
 from histories import history_of, pushed_until, rod
 
 from bent_beam.cases import load_case
-from bent_beam.free_flight import cannot_return, has_left
+from bent_beam.free_flight import LOWEST_PERIOD, Separation, cannot_return, has_left
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.measure.whole_impact import hits, peak_times, pushes, whole_impact
@@ -230,3 +230,26 @@ def test_the_largest_push_of_a_wall_that_gives_way_lies_between_saved_instants()
     fine, coarse = (whole_impact(HermiteFE().simulate_to_separation(impact, save=save)) for save in (8000, 1000))
     assert coarse.push == pytest.approx(fine.push, rel=2e-4)
     assert coarse.push - coarse.push_rise < (1.0 - 1e-3) * fine.push
+
+
+def test_a_run_is_over_a_period_of_the_lowest_mode_after_its_last_push() -> None:
+    over = Separation(Impact.whole_beam(2.0))  # T* = 1
+    x = np.linspace(0.0, 1.0, 5)
+    gone = (x, 1.0 + x**2, -np.ones(5), 1.0)  # as laid, one half beam away, at the velocity of all its energy
+    assert not over(0.0, 0.0, lambda: gone) and not over(5.0, 0.0, lambda: gone)  # it has not touched yet
+    assert not over(6.0, 1.0, lambda: gone)
+    assert not over(6.0 + 0.99 * LOWEST_PERIOD, 1.0, lambda: gone)
+    assert over(6.0 + 1.01 * LOWEST_PERIOD, 1.0, lambda: gone)
+    assert not over(8.0, 1.0, lambda: gone, closed=True)
+
+
+def test_the_largest_push_begins_when_the_wall_begins_to_push_within_its_window() -> None:
+    time, x = np.linspace(0.0, 0.4, 401), np.linspace(0.0, 1.0, 5)
+    given = np.where(time > 0.2995, 1.0, 0.0)[:, None] * np.eye(5)[0]  # a slap between two saved instants
+    one = np.ones(time.size)
+    slap = history_of(
+        time, x, impact=Impact.whole_beam(2.0), velocity=0.0 * given, slope=0.0 * given, impulse=given,
+        total_impulse=2.0 * given[:, 0], kinetic_energy=one, strain_energy=0.0 * one,
+    )  # fmt: skip
+    found = whole_impact(slap)
+    assert found.push == pytest.approx(2.0) and found.push_time == pytest.approx(0.299)

@@ -1,6 +1,7 @@
 "use strict";
 // A whole impact as numbers with bars: which runs, and what they say together (bent_beam/measure/numbers.py).
 const Answer = (() => {
+  const { abs, max, min, round, sqrt } = Math;
   const FACTOR = 1.5, LEAST = 1e-4; // of what a companion changes; of the number: closer agreement is chance
   const RATIOS = [0.0002, 0.002, 0.02]; // damping ratios where none is stated
   const DRAWN = [140, 92, 124, 80, 108, 132]; // elements of an ensemble; nodes rebound by 0, ½ and 1 of their velocity
@@ -13,16 +14,16 @@ const Answer = (() => {
     const base = { elements: hard ? 200 : 100, steps: hard ? 16000 : 8000, atPosition: point };
     if (!p.wall) return base;
     const length = p.wall.k ** -0.25;
-    return { elements: Math.round(Math.min(Math.max(100, 4 / length), 300)),
-      steps: Math.round(Math.min(Math.max(8000, 100 / length ** 2), 30000)) };
+    return { elements: round(min(max(100, 4 / length), 300)),
+      steps: round(min(max(8000, 100 / length ** 2), 30000)) };
   }
 
   /** The runs behind the numbers of p, by name: `base` and its companions, or, undamped, an ensemble. */
   function runs(p) {
-    const base = resolution(p), half = { ...base, elements: Math.round(base.elements / 2), steps: base.steps / 2 };
+    const base = resolution(p), half = { ...base, elements: round(base.elements / 2), steps: base.steps / 2 };
     if (p.eta) return p.wall ? { base, half } : { base, half, law: { ...base, atPosition: !base.atPosition } };
     return Object.fromEntries(DRAWN.map((elements, i) => {
-      const drawn = { elements, steps: Math.round((0.5 + 0.2 * i) * elements ** 2), rebound: (i % 3) / 2 };
+      const drawn = { elements, steps: round((0.5 + 0.2 * i) * elements ** 2), rebound: (i % 3) / 2 };
       return [i ? `drawn ${i}` : "base", drawn];
     }));
   }
@@ -36,14 +37,16 @@ const Answer = (() => {
       if (!there || !whole) return [name, { value: there ? base[name] : null, bar: null }];
       if (!p.eta) {
         const mean = values.reduce((a, b) => a + b) / values.length;
-        const std = Math.sqrt(values.reduce((sum, value) => sum + (value - mean) ** 2, 0) / (values.length - 1));
+        const std = sqrt(values.reduce((sum, value) => sum + (value - mean) ** 2, 0) / (values.length - 1));
         return [name, { value: mean, bar: std, runs: values.length }];
       }
-      const bar = FACTOR * values.reduce((sum, value) => sum + Math.abs(value - base[name]), 0);
+      const bar = FACTOR * values.reduce((sum, value) => sum + abs(value - base[name]), 0);
       const { elements, steps } = resolution(p), landing = p.wall ? p.wall.c / elements : 0; // all dashpots of a node
-      const known = { lastContact: 0.5 / steps, force: landing };
+      const shift = ({ begin, apart }) => min(abs(begin - base.begin), apart, base.apart); // they end it together by chance
+      const shifts = FACTOR * Object.values(others).reduce((sum, run) => sum + shift(run), 0);
+      const known = { lastContact: 0.5 / steps + shifts, force: landing };
       const sum = bar + (known[name] || 0);
-      return [name, { value: base[name], bar: sum && Math.max(sum, LEAST * Math.abs(base[name])) }];
+      return [name, { value: base[name], bar: sum && max(sum, LEAST * abs(base[name])) }];
     }));
   }
 

@@ -6,6 +6,7 @@
 const Solver = (() => {
   const { abs, max, min, sqrt } = Math, { PAD, element, assembled, row } = Elements;
   const PERIOD = 2 * Math.PI / (4.730040744862704 / 2) ** 2; // of the lowest mode
+  const SEPARATION = 2e-3; // the shortest that counts, T*
   const LONGEST = 8, EARLY = 0.05; // T*; until when the impulse of each step is kept, T*
   const UNRESOLVED = 0.002; // T*: until then the first touch bends the mesh, not the beam
   const spacing = (t) => max(1 / 2000, min(1 / 200, t / 60)); // of the frames, T*
@@ -75,7 +76,8 @@ const Solver = (() => {
     const m = model(p, elements, 1 / steps), { n, l, h, size, q, v, x, share, impulse } = m;
     const step = p.wall ? Contact.elastic({ ...m, wall: p.wall }) : Contact.rigid({ ...m, atPosition, rebound });
     const moment = new Float64Array(n), since = new Float64Array(n), scratch = new Float64Array(size);
-    const found = { impulse: 0, lastContact: 0, moment: 0, place: 0, time: 0, force: 0, left: false };
+    const found = { impulse: 0, lastContact: 0, begin: 0, apart: Infinity, moment: 0, place: 0, time: 0, force: 0,
+      left: false };
     const early = [[0, 0]], frames = [];
     let first = null, worst = abs(p.before);
     const keep = (t, span) => {
@@ -96,7 +98,9 @@ const Solver = (() => {
       for (let j = 0; j < n; j++) { pushed += 2 * impulse[j]; since[j] += impulse[j]; }
       for (let i = PAD; i < size - PAD; i++) { q[i] += h * (v[i] + 0.5 * x[i]); v[i] += x[i]; }
       if (pushed > 1e-9 * found.impulse) {
-        if (t - found.lastContact > PERIOD && found.impulse) first ??= { ...found };
+        const apart = t - found.lastContact;
+        if (apart > PERIOD && found.impulse) first ??= { ...found };
+        if (apart > SEPARATION) Object.assign(found, { begin: t, apart });
         found.lastContact = t;
       }
       found.impulse += pushed;
@@ -115,7 +119,7 @@ const Solver = (() => {
     const restitution = over ? hit.impulse / 2 - (p.load + p.pull) * hit.lastContact - 1 : null;
     const until = min(found.lastContact + PERIOD, frames[frames.length - 1].t);
     const lastContact = over ? hit.lastContact : null;
-    return { ...found, impulse: hit.impulse, lastContact, restitution, until, frames, early };
+    return { ...found, impulse: hit.impulse, begin: hit.begin, apart: hit.apart, lastContact, restitution, until, frames, early };
   }
 
   return { simulate };

@@ -3,8 +3,6 @@
 const Words = (() => {
   const { unit, quantity } = Form, { text, bar } = Draw;
   const COMMAND = "bentbeam bounce impact.toml";
-  const WIDE = 0.1, LEAST = 0.3; // a bar over its number from which it is wide; restitutions below count as this
-  const STEEP = 0.3; // slope of the bow at its ends
 
   /** A number in SI, value × size + shift, with its bar, in the unit that suits. */
   function number(name, { value, bar: error, runs }, size = 1, shift = 0) {
@@ -36,8 +34,8 @@ const Words = (() => {
 
   /** What a reader must know of the numbers; whole: whether every bar is there. */
   function warnings(b, { restitution, moment }, problem, whole) {
-    const wide = (one, least = 0) => one.bar > WIDE * Math.max(Math.abs(one.value), least);
-    const wides = whole && problem.eta && (wide(moment) || wide(restitution, LEAST));
+    const wide = (one, least = 0) => one.bar > DOUBTS.wide * Math.max(Math.abs(one.value), least);
+    const wides = whole && problem.eta && (wide(moment) || wide(restitution, DOUBTS.least_restitution));
     const back = restitution.value !== null && problem.load + problem.pull > 0;
     const said = [
       [!problem.eta, "Without damping the outcome is irregular and does not converge: a band is given."],
@@ -47,7 +45,7 @@ const Words = (() => {
       [!b.shear, "Short waves are faster without shear; this page takes few elements, and its bars count that."],
       [whole && restitution.value === null, "The loads keep the beam on the wall: no restitution is given."],
       [back, "The loads bring the beam back to the wall; these numbers are those of the first hit."],
-      [(b.curvature - b.wallCurvature) * b.length / 2 >= STEEP, "The bow is steep: all this is for small slopes."],
+      [(b.curvature - b.wallCurvature) * b.length / 2 >= DOUBTS.steep, "The bow is steep: all this is for small slopes."],
     ];
     return said.filter(([is]) => is).map(([, sentence]) => sentence);
   }
