@@ -13,7 +13,7 @@ import types
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
-from typing import Annotated, Any, ClassVar, TypeVar, Union, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, ClassVar, Protocol, TypeVar, Union, get_args, get_origin, get_type_hints
 
 from bent_beam import checks
 from bent_beam.errors import InputError, nearest, unknown_key
@@ -27,8 +27,8 @@ T = TypeVar("T")
 
 @dataclass(frozen=True, kw_only=True)
 class Declared:
-    """A field as its annotation declares it. kind : float, int, bool, str, a class of parts, or ``None`` for anything
-    else."""
+    """A field as its annotation declares it. kind : float, int, bool, str, a class of parts or what a part must do (a
+    protocol that can be checked at run time), or ``None`` for anything else."""
 
     kind: type | None
     optional: bool
@@ -114,7 +114,8 @@ def _declared(hint: Any) -> Declared:
     kinds = get_args(hint) if get_origin(hint) in (Union, types.UnionType) else (hint,)
     plain = [kind for kind in kinds if kind is not types.NoneType]
     kind = plain[0] if len(plain) == 1 else None
-    if kind not in (float, int, bool, str) and not (isinstance(kind, type) and issubclass(kind, Part)):
+    a_part = isinstance(kind, type) and (issubclass(kind, Part) or Protocol in kind.__bases__)
+    if kind not in (float, int, bool, str) and not a_part:
         kind = None
     return Declared(kind=kind, optional=types.NoneType in kinds, quantity=quantity)
 

@@ -15,6 +15,12 @@ def lossy(loss: float, times: float = 1.0) -> Impact:
     return beam.replace(hysteretic_loss=loss, loss_frequency=times * first_mode(beam))
 
 
+def test_a_steel_rod_of_20_mm_and_2_m_sounds_at_23_hertz() -> None:
+    """f = (4.730²/2π) √(EI/μ)/L² of a free–free beam; √(E/ρ) d/4 = 25.86 m²/s."""
+    rod = Impact(1649.34, 2.46615, 2.0, 0.0, 1.0)
+    assert first_mode(rod) == pytest.approx(4.73004**2 / (2.0 * math.pi) * 25.8609 / 4.0, rel=1e-5)
+
+
 @pytest.mark.parametrize("loss", [1e-4, 0.1, 0.3, 1.0])
 @pytest.mark.parametrize("times", [0.01, 1.0, 3e4])
 def test_the_loss_is_constant_within_a_tenth_over_the_stated_range_and_modulus_and_loss_hold_where_they_are_asked_for(

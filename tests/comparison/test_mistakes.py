@@ -57,6 +57,7 @@ class Bare:
         (lambda: HermiteFE(integrator=MoreauJean), r"integrator must be made from its class: MoreauJean\(\)"),
         (lambda: HermiteFE(integrator="moreau_jean"), "integrator must be an instance of Integrator .*'moreau_jean'"),
         (lambda: hermite_fe.simulate(IMPACT, end_time=0.01, contact=NodeContact), r"contact .*: NodeContact\(\)"),
+        (lambda: ExudynModel(mesh=3), r"mesh must be an instance of Mesh \(got 3\)"),
         (lambda: ExudynModel(integrator="newmark"), "integrator must be an instance of Integrator .*'newmark'"),
         (lambda: HermiteFE(contact=Light()).simulate(IMPACT, end_time=0.01), r"weights .* add up to one .*\(got 0.8\)"),
         (lambda: HermiteFE(integrator=Mute()).simulate(IMPACT, end_time=0.01), "Mute.advance must return .*got None"),

@@ -37,6 +37,12 @@ def test_leading_order_to_a_few_hundred_thousandths(ratio, half):
     assert found.lift < 5e-5
 
 
+def test_the_slope_is_that_of_the_line_whose_distance_from_the_wall_is_the_gap(half):
+    for history in (half, simulate_expanding(Impact.dimensionless(0.5, epsilon_alpha=0.1), QUICK, end_time=0.1)):
+        bow = -np.gradient(history.array("gap", -1), history.positions(-1), edge_order=2)
+        assert history.array("slope", -1) == pytest.approx(bow, abs=1e-3) and abs(bow).max() > 3.0
+
+
 def test_a_nearly_flat_beam():
     """κ/ν = 1/1600, where no fixed mesh resolves the front: the held start alone is right to 0.01 %."""
     state = similarity(1 / 1600, ExpandingMesh(front_resolution=0.05))
