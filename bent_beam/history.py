@@ -206,8 +206,7 @@ class ImpactHistory:
             recorded = self.array("bending_moment", k)
             return np.stack([recorded[..., :-1], recorded[..., 1:]], axis=-1), place
         y = -self.array("gap", k) - 0.5 * impact.wall_curvature * (x - impact.first_touch) ** 2
-        given = "slope" in self
-        slope = self.array("slope", k) if given else np.gradient(y, x, axis=-1, edge_order=2)
+        slope = self.array("slope", k) if "slope" in self else np.gradient(y, x, axis=-1, edge_order=2)
         natural = impact.curvature if impact.natural_curvature is None else impact.natural_curvature
         moment = impact.bending_stiffness * (end_curvatures(x, y, slope) + natural)
         return moment, place
@@ -215,7 +214,8 @@ class ImpactHistory:
     @property
     def force(self) -> Array:
         """Mean force of the wall since the saved instant before, N, shape (times,)."""
-        return np.diff(self.array("total_impulse"), prepend=0.0) / np.diff(self.time, prepend=-1.0)
+        start = 0.0 if self.time[0] else -np.inf
+        return np.diff(self.array("total_impulse"), prepend=0.0) / np.diff(self.time, prepend=start)
 
     @property
     def moment(self) -> Array:

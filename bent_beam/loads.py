@@ -11,17 +11,17 @@ and what compares with it do so, too (:func:`unmodelled`).
 
 To add a load:
 
-1. ``scales.py``: its field; of a force at a place, the place is a field of its own, with its key in ``tables.py`` and
-   ``description.py``. Without a term its share in ``load_within``, of which momentum, balances and hits
-   follow; if it can pull the beam off the wall, ``lifts``; if it acts on one half alone, ``off_centre``; that its
-   place is on the beam, ``impact.py``; where a node has to stand, ``meshes.snapped``.
-2. The path's file: its name in ``MODELLED``, and without a term its force: ``hermite_fe/model.py`` (``nodal_loads``);
-   of Exudyn ``method.py`` (``MODELLED``), ``geometry.py`` (its unit, ``Scaling``) and ``assembly.py`` (``assemble``).
-3. A test (``tests/measure/test_balance.py`` has the balances), a row in ``docs/guide/problems.md``, a line in
-   ``CHANGELOG.md``, and the stored numbers confirmed (CONTRIBUTING.md).
-
-A load that presses the zone unevenly also changes how a half length is read (``first_spread``
-in ``comparison/questions.py``).
+1. ``scales.py``: its field. A force at a place that can be chosen has a second field, the place, with its key in
+   ``tables.py`` and ``description.py``; ``impact.py`` checks that it is on the beam, ``meshes.snapped`` puts a node
+   there. A load without a term of y₀ has its share in ``load_within``, of which momentum, balances and hits follow.
+   Where it can pull the beam off the wall, ``lifts`` says so; where it acts on one half alone, ``off_centre``.
+2. Each path that models it: its name in ``MODELLED`` (``hermite_fe/model.py``, ``exudyn_models/method.py``) and, of a
+   load without a term, its force, of which half a beam takes half at the middle: ``nodal_loads`` in
+   ``hermite_fe/model.py``; ``assemble`` in ``exudyn_models/assembly.py``.
+3. ``first_spread`` in ``comparison/questions.py``, where it presses the zone unevenly: the half length is then read at
+   the rim of what pushes, and not from its centroid.
+4. A test (``tests/measure/test_balance.py`` has the balances), rows in ``docs/guide/problems.md`` and
+   ``docs/scope.md``, a line in ``CHANGELOG.md``, and the stored numbers confirmed (``make stored``: some minutes).
 
 A beam with held ends,
 

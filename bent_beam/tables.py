@@ -133,7 +133,10 @@ WAYS: dict[str, tuple[dict[str, tuple[str, ...]], ...]] = {
         {"curvature": (), "sagitta": ("sagitta_length",), "dogleg": ()},
         {"damping": (), "damping_ratio": ()} | dict.fromkeys(("loss_factor", "hysteretic_loss"), ("loss_frequency",)),
     ),
-    "impact": ({"velocity": (), "drop_height": (), "angular_speed": ("angular_arm",), "amplitude": ("frequency",)},),
+    "impact": (
+        {"velocity": (), "drop_height": (), "angular_speed": ("angular_arm",), "amplitude": ("frequency",)},
+        {"acceleration": (), "gravity": ("gravity_angle",)},
+    ),
     "wall": ({"damping": (), "damping_ratio": ()},),
     "run": ({"end_time": (), "duration": ()},),
     "section": ({"inner_diameter": (), "wall_thickness": ()},),

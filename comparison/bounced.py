@@ -136,14 +136,18 @@ class Bounce:
             pressed = self.impact.net_load > 0.0
             why = "the loads keep the beam on the wall" if pressed else "a run ended with the beam at the wall"
             short = f"flights shorter than {1e3 * LOWEST_PERIOD * self.units['time']:.3g} ms are part of a hit"
-            hint = f" ({short}; for that of the impact alone give impact.velocity and no gravity)" if pressed else ""
+            hint = (
+                f" ({short}; for that of the impact alone give impact.velocity and no load that presses)"
+                if pressed
+                else ""
+            )
             found.append(f"{why}: it has not left the wall for good, so no restitution is given{hint}")
         elif self.impact.net_load > 0.0:
             found.append(
                 "the loads bring the beam back to the wall; these numbers are those of the first hit, later ones may "
                 "be larger (--hits follows more)"
             )
-        return [*found, *wide_bars(self.numbers), *self.runs.warnings, *self.balance.warnings, *others]
+        return [*found, *wide_bars(self.numbers), *self.runs.warnings, *others]
 
     def to_dict(self) -> dict[str, Any]:
         """The contract of ``bentbeam bounce --json``."""

@@ -19,6 +19,7 @@ import numpy as np
 from bent_beam import Case, Method, SimulationError
 from bent_beam.history import REFLECTED, ImpactHistory
 from bent_beam.hysteresis import converges
+from bent_beam.measure.balance import balance_of
 from bent_beam.measure.estimators import lift_shares
 from bent_beam.measure.instant import instant
 from bent_beam.measure.numbers import FACTOR, Number
@@ -61,7 +62,7 @@ def instants_reading(times: tuple[float, ...], first_spread: bool, history: Impa
     found = asdict(instant(history, last, first_spread=first_spread))
     if last > 0.0 and abs(found["reaction"] or 0.0) < ROUND_OFF * abs(found["impulse"]) / last:
         found["reaction"] = 0.0  # impulses of a beam in flight add up to round-off
-    return found | {"before": before, "energy": energy_at_end(history)}
+    return found | {"before": before, "balance": asdict(balance_of(history)), "energy": energy_at_end(history)}
 
 
 def instant_numbers(runs: Runs) -> dict[str, Number]:

@@ -159,9 +159,8 @@ class Question:
         if self.until is None:
             return simulate_to_separation(method, beam, save=self.save or OF_UNIT, progress=progress)
         number = self.save or INSTANTS
-        instants = np.arange(1, round(number * BEYOND**0.5) + 1) / number
-        instants[-1] = BEYOND**0.5  # the end itself
-        times = self.until * instants**2
+        within = max(number, round(number * BEYOND**0.5) - 1)  # the time asked is one of them
+        times = self.until * np.append(np.arange(1, within + 1) / number, BEYOND**0.5) ** 2
         return simulated(method.simulate, beam, end_time=float(times[-1]), save=times, progress=progress)
 
     def key(self, impact: Impact) -> dict[str, Any]:

@@ -14,6 +14,7 @@ from typing import Any
 
 from bent_beam import Impact, ImpactHistory, InputError, SimulationError
 from bent_beam.hysteresis import converges
+from bent_beam.measure.balance import Balance
 from bent_beam.measure.numbers import Band, Number, number_of
 from bent_beam.method import Method, settings_of
 from comparison.doubts import loss_warnings
@@ -24,7 +25,8 @@ from comparison.workers import run_all
 __all__ = ["Run", "Runs", "bands_of", "kept", "numbers_of", "runs_of"]
 
 LEAST = 1e-4  # of a number of one beam: whole beams drawn at random are off by more where companions agree better
-Reading = Callable[[ImpactHistory], dict[str, Any]]  # what it returns is JSON-ready and holds "energy", that at the end
+Reading = Callable[[ImpactHistory], dict[str, Any]]
+"""What it returns is JSON-ready and holds the ``energy`` at the end and the ``balance``."""
 Progress = Callable[[float], None]
 
 
@@ -69,8 +71,15 @@ class Runs:
 
     @property
     def warnings(self) -> list[str]:
-        """What the run says, what steps and mesh took of its energy, and which companions are missing."""
-        return [*self.run.warnings, *loss_warnings(self.run.reading["energy"]), *self.lost]
+        """What the run says, what steps and mesh took of its energy, what is out of balance, and which companions are
+        missing."""
+        reading = self.run.reading
+        return [
+            *self.run.warnings,
+            *loss_warnings(reading["energy"]),
+            *Balance(**reading["balance"]).warnings,
+            *self.lost,
+        ]
 
     def part(self, of: Callable[[dict[str, Any]], dict[str, Any]]) -> Runs:
         """The same runs with a part of their readings."""

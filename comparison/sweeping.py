@@ -26,7 +26,7 @@ from bent_beam.settings import settings
 from bent_beam.tables import in_keys
 from comparison.bounced import documents
 from comparison.bouncing import bounce
-from comparison.doubts import doubts
+from comparison.doubts import doubts, wide_bars
 from comparison.predicting import numbers_at, runs_to
 from comparison.readable import flat, readable, text_table, unit_for
 from comparison.rows import failures, reason_of
@@ -142,8 +142,9 @@ def _found(case: Case, path: str, store: RunStore) -> dict[str, Any]:
         separation_times(impact)
     except InputError:
         runs = runs_to(case, method, (case.end_time,), store)
-        warnings = [*doubts(impact, case.section), *runs.warnings]
-        return {"numbers": numbers_at(runs, case), "until": case.end_time, "warnings": warnings, "kept": runs.kept}
+        numbers = numbers_at(runs, case)
+        warnings = [*doubts(impact, case.section), *wide_bars(numbers), *runs.warnings]
+        return {"numbers": numbers, "until": case.end_time, "warnings": warnings, "kept": runs.kept}
     found = bounce(case, method, store=store)
     return {"numbers": found.in_si, "warnings": found.warnings, "kept": found.kept}
 

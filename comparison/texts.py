@@ -247,9 +247,11 @@ def run_text(found: dict[str, Any], verbose: bool = False) -> str:
     ]
     peaks = {"moment": (f"largest bending moment, {until}", "N m"), "stress": (f"largest stress, {until}", "Pa")}
     if found["peak_force"] is not None:  # of a wall that gives way
-        wall = "wall" if found["peak_force_wall"] == "front" else "opposite wall"
-        at = f"at {1e3 * found['peak_force_time']:.4g} ms and {found['peak_force_place']:.3g} m"
-        peaks["force"] = f"largest force, on the {wall}, {at}", "N"
+        where = ""
+        if found["peak_force_time"] is not None:  # a wall has pushed
+            wall = "wall" if found["peak_force_wall"] == "front" else "opposite wall"
+            where = f", on the {wall}, at {1e3 * found['peak_force_time']:.4g} ms and {found['peak_force_place']:.3g} m"
+        peaks["force"] = f"largest force{where}", "N"
         peaks |= {"penetration": ("largest penetration", "m"), "pressure": ("largest pressure", "N/m")}
     for name, (title, unit) in peaks.items():
         number = Number(found[f"peak_{name}"], found[f"peak_{name}_error"])

@@ -264,6 +264,7 @@ class LinearLimit(Geometry):
         motion = scaling.motion_of(max(abs(scaling.kappa), abs(scaling.beam_kappa)))
         largest = FreeMotion({powers: abs(c) for powers, c in motion.terms.items()})
         swings = MODE_SLOPE * scaling.length / scaling.impact.half_length if held else 0.0
+        swings *= float(largest(far, 1.0, by_t=1))  # over V₀: as fast as loads could make it until the end
         return STEEPEST / max(1.0, float(largest(far, 1.0, by_x=1)), swings)
 
 

@@ -138,8 +138,6 @@ class ExudynModel(Part):
         for name in ("rotation", "first_touch"):
             if getattr(impact, name):
                 apart[name] = ("curvature_rate", "fourth_derivative", "axial_force")
-                if not self.full_beam:
-                    yield f"{name} needs exudyn.full_beam = true (got {getattr(impact, name)!r})"
         if supports_or_plate(impact):
             name = "ends" if impact.supported else "wall_from, wall_to"
             apart[name] = ("opposite_wall", "axial_force")

@@ -145,11 +145,17 @@ class HermiteFE(Composition):
         assert integrator is not None
         if integrator.elastic or contact is None:
             return {}
-        sticks = isinstance(integrator, MoreauJean) and contact.restitution == 0.0
-        law = SignoriniPosition if sticks else MoreauJean
+        law: type[MoreauJean] | type[SignoriniPosition] = MoreauJean
+        if isinstance(integrator, MoreauJean):  # nodes that rebound have another law in those that do not
+            law = MoreauJean if contact.restitution else SignoriniPosition
+            contact = dataclasses.replace(contact, restitution=0.0)
         other = law(theta=0.5, time_step=integrator.time_step, growth=0.0)
         sheared = impact.shear_stiffness is not None
-        return {"contact_law": dataclasses.replace(chosen, integrator=other.refined(1.0 if sheared else 0.5))}
+        return {
+            "contact_law": dataclasses.replace(
+                chosen, contact=contact, integrator=other.refined(1.0 if sheared else 0.5)
+            )
+        }
 
     def varied(self, impact: Impact, random: np.random.Generator) -> Self:
         """A copy for an ensemble: elements, steps and impact law drawn at random.

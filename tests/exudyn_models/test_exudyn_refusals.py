@@ -70,7 +70,6 @@ REFUSED = [
     (lambda: table("mesh", element_length=0.1), r"mesh\.kind is required"),
     (lambda: Penalty(stiffness=1.0, relative_stiffness=1.0), "exclude each other"),
     # what a part cannot model
-    (lambda: asked(WHOLE.replace(rotation=0.1)), "full_beam"),
     (lambda: asked(ONE_WALL, contact=Rigid()), "one wall"),
     (lambda: asked(ONE_WALL, contact=SegmentFriction()), "one wall"),
     (lambda: asked(WHOLE.replace(wall_stiffness=1e4), contact=Penalty()), "exudyn.contact has no effect"),
