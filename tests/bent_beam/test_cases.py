@@ -54,3 +54,14 @@ def test_a_mistake_is_named_with_its_value(tables, message):
     with pytest.raises(InputError, match=message) as caught:
         case_from_tables(tables)
     assert "\n" not in str(caught.value)
+
+
+def test_gravity_takes_the_place_of_an_acceleration_that_a_case_gives_and_the_other_way_round(tmp_path):
+    file = tmp_path / "case.toml"
+    for given, laid, found in (
+        ("acceleration = 2.0", "gravity=9.81", 9.81),
+        ("gravity = 9.81\ngravity_angle = 60.0", "acceleration=2.0", 2.0),
+    ):
+        beam = "\n".join(f"{key} = {value}" for key, value in BEAM.items())
+        file.write_text(f"[beam]\n{beam}\n[impact]\nvelocity = 20.0\n{given}\n")
+        assert load_case(file, [f"impact.{laid}"]).impact.acceleration == pytest.approx(found)

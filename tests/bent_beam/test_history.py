@@ -77,3 +77,10 @@ def test_a_history_may_hold_one_instant_but_none_before_the_touch(tmp_path):
     assert ImpactHistory.load(at(0.0).save(tmp_path / "run.nc")).time.tolist() == [0.0]
     with pytest.raises(ValueError, match="instants from 0 on"):
         at(-1.0, 0.0, 1.0)
+
+
+def test_the_first_force_of_a_history_that_begins_late_is_a_mean_since_the_first_touch():
+    """Whatever the unit of time."""
+    late = history_of([2e-3, 4e-3], [0.0, 1.0], total_impulse=np.array([0.01, 0.03]))
+    assert late.force == pytest.approx([5.0, 10.0])
+    assert small().force == pytest.approx([0.0, 0.5, 0.5])

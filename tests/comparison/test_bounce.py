@@ -13,13 +13,12 @@ from histories import pushed_until, rod
 
 from bent_beam.free_flight import has_left
 from bent_beam.history import ImpactHistory
-from bent_beam.measure.numbers import FACTOR, Band, Number
+from bent_beam.measure.numbers import Band
 from bent_beam.meshes import UniformMesh
 from bent_beam.method import method_from_tables
-from comparison.bouncing import bounce, case_of, problem, whole_numbers, whole_reading
-from comparison.doubts import wide_bars
+from comparison.bouncing import bounce, case_of, problem, whole_reading
 from comparison.questions import Question
-from comparison.runs import Run, Runs, runs_of
+from comparison.runs import runs_of
 from comparison.store import RunStore
 from hermite_fe import HermiteFE
 from hermite_fe.contacts import MiddleContact
@@ -84,30 +83,6 @@ def test_a_single_run_that_ends_at_the_wall_is_told_with_the_numbers_that_it_ent
     assert any("wide error bars: impulse" in warning for warning in found.warnings) == (
         damping > 0.0
     )  # no band has bars
-
-
-@pytest.mark.parametrize(
-    ("other", "shift"),
-    [((0.3, 0.5), 0.0), ((0.35, 0.45), 0.05), ((0.8, None), 0.2)],
-    ids=["same", "sooner", "together"],
-)
-def test_a_last_contact_that_begins_elsewhere_ends_by_chance_at_the_same_time(other, shift) -> None:
-    """Contact from 0.5 to 0.8 T*, after one that ended 0.2 T* before."""
-    one, another = (Run.of(pushed_until(end, again=again), whole_reading) for end, again in ((0.3, 0.5), other))
-    question = Question(problem(2.0, 1e-3), COARSE)
-    found = whole_numbers(Runs(question, one, {"contact_law": another}))["last_contact"]
-    assert found.value == pytest.approx(0.8, abs=0.03)
-    assert found.parts["contact_law"] == pytest.approx(0.0, abs=1e-9)
-    assert found.parts["contacts"] == pytest.approx(FACTOR * shift, abs=0.05)  # saved every 0.05 T*
-
-
-def test_bars_over_a_tenth_of_a_number_are_wide_and_a_small_restitution_counts_as_more() -> None:
-    assert not wide_bars({"restitution": Number(0.1, 0.02), "peak_moment": Number(1.0, 0.05)})
-    assert not wide_bars({"impulse": Band(1.0, 1.0, 24), "peak_force": Number(), "half_contact_length": Number(1.0)})
-    (said,) = wide_bars(
-        {"restitution": Number(0.1, 0.04), "impulse": Number(-1.0, 0.2), "peak_moment": Number(1.0, 0.0)}
-    )
-    assert "restitution" in said and "impulse" in said and "moment" not in said
 
 
 def test_without_damping_a_seeded_band_takes_the_place_of_a_number(monkeypatch) -> None:

@@ -17,6 +17,7 @@ from comparison import bounce, predict
 from comparison.bounced import scales
 from comparison.compare import compare_histories, rerun_history
 from comparison.simulating import simulate_case
+from comparison.texts import run_text
 from self_similar_fe import SelfSimilarFE
 
 SEED = 20261123
@@ -133,3 +134,11 @@ def test_twenty_beams_of_a_seed_are_answered_alike_at_every_door(tmp_path: Path)
     rng = random.Random(SEED + 1)
     for case in drawn(tmp_path, 20, coarse=False):
         check(case, 10.0 ** rng.uniform(-3.0, -0.5))
+
+
+def test_a_wall_that_gives_way_and_is_not_yet_touched_has_no_place_of_its_force() -> None:
+    case = load_case(
+        Path(__file__).parents[2] / "cases" / "tube_between_plates.toml", ["wall.clearance=2e-4", "wall.opposite=2e-4"]
+    )
+    said = run_text(simulate_case(case, "hermite", until=3e-4, error_bars="drift", save=20).to_dict())
+    assert "largest force  " in said and "nan" not in said.lower() and "None" not in said

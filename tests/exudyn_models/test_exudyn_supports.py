@@ -6,6 +6,7 @@ from numpy.testing import assert_allclose
 
 from bent_beam import Impact
 from bent_beam.measure.balance import balance_of
+from bent_beam.meshes import UniformMesh
 from exudyn_models import ExudynModel
 from exudyn_models.contacts.penalty import covered
 from hermite_fe import HermiteFE
@@ -67,3 +68,11 @@ def test_the_covered_length_of_a_straight_rim_is_exact_and_grows_without_jumps()
     for rim in np.linspace(-0.9, 0.9, 37):
         assert covered(rim - x, np.diff(x)).sum() == pytest.approx(1.0 + rim)
         assert covered(x - rim, np.diff(x)).sum() == pytest.approx(1.0 - rim)
+
+
+@pytest.mark.parametrize("velocity", [1e-3, 1e-6])
+def test_a_load_bends_a_hinged_beam_to_its_rest_however_slowly_it_came(velocity: float) -> None:
+    """5pL⁴/(384 EI), away from the wall: what the load makes of the velocity is no instability."""
+    impact = Impact.whole_beam(1.0).replace(curvature=0.0, damping=0.3, acceleration=-1.0, velocity=velocity, **HINGED)
+    history = ExudynModel(mesh=UniformMesh(0.1)).simulate(impact, end_time=12.0, save=5)
+    assert history.array("gap", -1).max() == pytest.approx(5.0 * 16.0 / 384.0, rel=2e-5)

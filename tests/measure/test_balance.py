@@ -4,6 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
+from histories import history_of
 
 from bent_beam import Impact, ImpactHistory
 from bent_beam.measure.balance import balance_of
@@ -89,3 +90,13 @@ def test_a_pull_counts_where_nothing_is_said_to_be_held() -> None:
 def test_sound_runs_whose_means_of_the_force_swing_have_nothing_to_warn_of(integrator: GeneralizedAlpha) -> None:
     history = ExudynModel(integrator=integrator, refine=0.5).simulate(Impact.dimensionless(0.25), end_time=0.1)
     assert balance_of(history).warnings == []
+
+
+def test_a_beam_in_the_opposite_wall_is_in_a_wall() -> None:
+    """Flat, 0.3 m behind the apex of a beam before a curved wall."""
+    x, time = np.linspace(0.0, 1.0, 5), np.linspace(0.0, 1.0, 11)
+    impact = WHOLE.replace(opposite_wall=0.3, wall_curvature=0.2)
+    front = 0.1 * x**2
+    for behind, depth in ((0.0, 0.0), (0.05, 0.05)):
+        gap = np.outer(time, front + 0.3 + behind)
+        assert balance_of(history_of(time, x, impact=impact, gap=gap)).penetration == pytest.approx(depth, abs=1e-12)

@@ -55,3 +55,7 @@ def test_a_bar_holds_the_error_of_a_run_of_first_order_and_is_at_most_twice_as_w
 def test_runs_that_agree_by_chance_give_no_finer_bar() -> None:
     assert number_of(2.0, {"mesh_and_step": 2.0 + 1e-9}).bar == pytest.approx(2e-5)
     assert number_of(2.0, {"mesh_and_step": 2.0}).bar == 0.0  # a count
+
+
+def test_a_band_is_mean_and_standard_deviation_of_its_runs() -> None:
+    assert Band.of([1.0, 2.0, 3.0]) == Band(2.0, 1.0, 3)

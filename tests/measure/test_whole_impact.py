@@ -253,3 +253,37 @@ def test_the_largest_push_begins_when_the_wall_begins_to_push_within_its_window(
     )  # fmt: skip
     found = whole_impact(slap)
     assert found.push == pytest.approx(2.0) and found.push_time == pytest.approx(0.299)
+
+
+def test_a_steady_force_pushes_for_a_hundredth_of_the_unit_of_time_within_the_window() -> None:
+    assert whole_impact(pushed_until(0.3)).push == pytest.approx(0.01 * 5.8)
+
+
+@pytest.mark.parametrize(("apart", "separations"), [(1.5e-3, 1), (2.5e-3, 2)])
+def test_the_wall_must_rest_for_two_thousandths_of_the_unit_of_time_to_have_been_left(apart, separations) -> None:
+    time, x = np.linspace(0.0, 3.0, 6001), np.linspace(0.0, 1.0, 5)
+    impulse = np.minimum(time, 0.5) + np.clip(time - 0.5 - apart, 0.0, 0.5)
+    away = np.maximum(time - 1.0, 0.0)[:, None] * np.ones(5)
+    one = np.ones(time.size)
+    run = history_of(
+        time, x, impact=Impact.whole_beam(2.0), gap=away, slope=0.0 * away, velocity=-one[:, None] * np.ones(5),
+        impulse=impulse[:, None] * np.eye(5)[0], total_impulse=2.0 * impulse, kinetic_energy=one,
+        strain_energy=0.0 * one,
+    )  # fmt: skip
+    assert whole_impact(run).separations == separations
+
+
+def test_the_restitution_of_a_held_beam_is_that_of_its_mean_velocity_and_a_hit_is_where_it_pushes() -> None:
+    """Its supports push, too: the impulse of the wall says nothing."""
+    time, x = np.linspace(0.0, 4.0, 81), np.linspace(-1.0, 1.0, 11)
+    impulse = np.outer(np.minimum(time, 0.5), np.eye(11)[4] + 3.0 * np.eye(11)[8])  # at −0.2 and 0.6
+    velocity = np.where(time < 0.5, 1.0, -0.4)[:, None] * np.ones(11)
+    one = np.ones(time.size)
+    held = history_of(
+        time, x, symmetry="full", impact=Impact.whole_beam(2.0).replace(left_end="hinged"), velocity=velocity,
+        slope=0.0 * velocity, impulse=impulse, total_impulse=impulse.sum(axis=1), kinetic_energy=one,
+        strain_energy=0.0 * one,
+    )  # fmt: skip
+    assert whole_impact(held).restitution == pytest.approx(0.4)
+    (hit,) = hits(held)
+    assert (hit.before, hit.after, hit.place) == pytest.approx((1.0, -0.4, (0.2 + 3.0 * 0.6) / 4.0))

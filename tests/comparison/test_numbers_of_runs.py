@@ -1,0 +1,130 @@
+"""From readings to numbers: what companions change, what no companion shows, and what is said of a run's energies."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from histories import pushed_until
+
+from bent_beam import Impact
+from bent_beam.measure.numbers import FACTOR, Band, Number
+from bent_beam.meshes import UniformMesh
+from comparison.bouncing import follow_hits, problem, whole_numbers, whole_reading
+from comparison.doubts import energy_residual, loss_warnings, numerical_loss, wide_bars
+from comparison.predicting import OF_INSTANT, instant_numbers
+from comparison.questions import Question
+from comparison.runs import Run, Runs, numbers_of
+from hermite_fe import HermiteFE
+from hermite_fe.contacts import NodeContact
+from hermite_fe.integrators import MoreauJean
+
+COARSE = HermiteFE(mesh=UniformMesh(1.0 / 25))
+LATE, EARLY = 0.1, 0.001  # T*
+TIME = {name: 1.0 for name in OF_INSTANT} | {"impulse_around": [0.9, 1.0, 1.1], "element": 0.0, "lift": 0.0}
+ENERGY = {"initial": 1.0, "work_of_loads": 0.0, "loss_algorithmic": 0.0, "loss_viscous": 0.0, "defect": 0.0}
+
+
+def runs(reading, *others, damping=1e-3, until=LATE) -> Runs:
+    """Runs of a beam with these readings, that of the run itself first."""
+    run, *companions = (Run(one, [], 1.0, 1) for one in (reading, *others))
+    question = Question(problem(0.5, damping), COARSE, until)
+    return Runs(question, run, {f"companion {i}": one for i, one in enumerate(companions)})
+
+
+def test_late_and_without_damping_a_number_is_a_mean_with_two_standard_deviations() -> None:
+    drawn = runs({"impulse": 1.0}, {"impulse": 2.0}, {"impulse": 3.0}, damping=0.0)
+    number = numbers_of(drawn, ["impulse"])["impulse"]
+    assert (number.value, number.bar) == pytest.approx((2.0, 2.0))
+    damped = numbers_of(dataclasses.replace(drawn, question=runs({}).question), ["impulse"])["impulse"]
+    assert (damped.value, damped.bar) == pytest.approx((1.0, FACTOR * (1.0 + 2.0)))
+
+
+def test_companions_that_agree_better_than_whole_beams_can_leave_a_ten_thousandth() -> None:
+    number = numbers_of(runs({"impulse": 5.0}, {"impulse": 5.0 + 1e-9}), ["impulse"])["impulse"]
+    assert number.bar == pytest.approx(5e-4)
+
+
+def test_curves_that_cross_at_the_time_asked_do_not_agree() -> None:
+    crossing = TIME | {"impulse_around": [0.92, 1.0, 1.08]}
+    assert instant_numbers(runs(TIME, TIME))["impulse"].bar == 0.0
+    assert instant_numbers(runs(TIME, crossing))["impulse"].bar == pytest.approx(FACTOR * 0.02)
+
+
+def test_what_a_run_and_its_companion_share_stays_in_the_bar() -> None:
+    """Grid viscosity of an early run, 2e-3; chatter of single nodes in the moment of an undamped one, 1e-2."""
+    early = instant_numbers(runs(TIME, TIME, until=EARLY))
+    assert early["impulse"].bar == early["peak_moment"].bar == pytest.approx(2e-3)
+    assert instant_numbers(runs(TIME, TIME))["peak_moment"].bar == 0.0
+    assert instant_numbers(runs(TIME, TIME, TIME, damping=0.0))["peak_moment"].bar == pytest.approx(1e-2)
+
+
+@pytest.mark.parametrize(
+    ("other", "shift"),
+    [((0.3, 0.5), 0.0), ((0.35, 0.45), 0.05), ((0.8, None), 0.2)],
+    ids=["same", "sooner", "together"],
+)
+def test_the_bar_of_the_last_contact_holds_the_shift_of_its_beginning(other, shift) -> None:
+    """Contact from 0.5 to 0.8 T*, after one that ended 0.2 T* before. The companion's begins 0.05 T* sooner, or goes on
+    from that one: the two are 0.2 T* apart, and no more is uncertain."""
+    one, another = (whole_reading(pushed_until(end, again=again)) for end, again in ((0.3, 0.5), other))
+    found = whole_numbers(dataclasses.replace(runs(one, another), question=Question(problem(2.0, 1e-3), COARSE)))
+    number = found["last_contact"]
+    assert isinstance(number, Number) and number.value == pytest.approx(0.8, abs=0.03)
+    assert number.parts["companion 0"] == pytest.approx(0.0, abs=1e-9)
+    assert number.parts["contacts"] == pytest.approx(FACTOR * shift, abs=0.05)  # saved every 0.05 T*
+
+
+def test_bars_over_a_tenth_of_a_number_are_wide_and_a_small_restitution_counts_as_more() -> None:
+    assert not wide_bars({"restitution": Number(0.1, 0.02), "peak_moment": Number(1.0, 0.05)})
+    assert not wide_bars({"impulse": Band(1.0, 1.0, 24), "peak_force": Number(), "half_contact_length": Number(1.0)})
+    (said,) = wide_bars(
+        {"restitution": Number(0.1, 0.04), "impulse": Number(-1.0, 0.2), "peak_moment": Number(1.0, 0.0)}
+    )
+    assert "restitution" in said and "impulse" in said and "moment" not in said
+
+
+def test_what_is_missing_of_the_energy_without_being_booked_counts_as_lost() -> None:
+    booked = ENERGY | {"loss_viscous": 0.015}
+    assert numerical_loss(booked | {"defect": -0.01}) == pytest.approx(0.025)
+    assert numerical_loss(booked | {"defect": 0.01}) == pytest.approx(0.015)  # too much of it is no loss
+    assert loss_warnings(booked | {"defect": -0.01}) and not loss_warnings(booked)
+    assert energy_residual(ENERGY | {"defect": -0.01, "work_of_loads": -1.0}) == pytest.approx(0.005)
+
+
+def test_what_is_out_of_balance_is_among_the_warnings_of_runs() -> None:
+    balance = whole_reading(pushed_until(0.5))["balance"] | {"pull": 0.5}
+    assert any("the wall pulls" in line for line in runs({"energy": ENERGY, "balance": balance}).warnings)
+
+
+class Falling:
+    """A beam that is pushed from 0 to 0.5 T* and, by its weight, from 5 T* on again."""
+
+    path = "falling"
+
+    def for_whole_beam(self, impact):
+        return self
+
+    def simulate(self, impact, *, end_time, save):
+        return pushed_until(0.5, again=5.0, last=end_time)
+
+
+def test_hits_are_followed_until_so_many_are_over_or_the_beam_does_not_come_back() -> None:
+    falling = problem(2.0, 1e-3).replace(acceleration=0.5)
+    first = pushed_until(0.5)
+    found = follow_hits(falling, Falling(), 2, first=first)  # type: ignore[arg-type]
+    assert [hit.begin for hit in found] == pytest.approx([0.0, 5.0], abs=0.05)
+    assert len(follow_hits(problem(2.0, 1e-3), Falling(), 2, first=first)) == 1  # type: ignore[arg-type]
+
+
+def test_few_saved_instants_hold_the_time_that_is_asked_for() -> None:
+    for save in (8, 10, 21, 200):
+        question = Question(Impact.whole_beam(2.0, relative_damping=1e-2), COARSE, 0.05, save)
+        history = question.run(question.run_by)
+        assert np.abs(history.time - 0.05).min() < 5e-4 and history.time[-1] == pytest.approx(0.055, abs=5e-4)
+
+
+def test_the_companion_of_nodes_that_rebound_has_nodes_that_do_not() -> None:
+    impact = problem(0.5, 1e-3)
+    rebounding = dataclasses.replace(COARSE, integrator=MoreauJean(theta=0.5), contact=NodeContact(restitution=0.5))
+    (other,) = rebounding.cross_checks(impact).values()
+    assert isinstance(other.contact, NodeContact) and other.contact.restitution == 0.0
