@@ -48,6 +48,8 @@ def test_curves_that_cross_at_the_time_asked_do_not_agree() -> None:
     crossing = TIME | {"impulse_around": [0.92, 1.0, 1.08]}
     assert instant_numbers(runs(TIME, TIME))["impulse"].bar == 0.0
     assert instant_numbers(runs(TIME, crossing))["impulse"].bar == pytest.approx(FACTOR * 0.02)
+    above = TIME | {"impulse": 1.02, "impulse_around": [0.92, 1.02, 1.12]}
+    assert instant_numbers(runs(TIME, above))["impulse"].bar == pytest.approx(FACTOR * 0.02)  # it counts once
 
 
 def test_what_a_run_and_its_companion_share_stays_in_the_bar() -> None:
