@@ -104,7 +104,7 @@ def for_whole_beam(method: M, impact: Impact) -> M:
 
 @contextlib.contextmanager
 def no_way_out() -> Iterator[None]:
-    """``os._exit`` raises ``SystemExit`` in this process: it would take every other row along, without a word."""
+    """Within, ``os._exit`` raises ``SystemExit``: a method that ends its process would end all rows with it."""
     leave, here = os._exit, os.getpid()
 
     def ended(status: int) -> NoReturn:

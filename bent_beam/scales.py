@@ -1,7 +1,7 @@
 """The fields of an impact, its scales and dimensionless groups (theory.md, section 2; thesis 2.2.16, 2.2.36–37).
 
 l* = √(EI/μ)/V₀,  t* = l*/V₀: the fast layer;     T* = √(μL*⁴/EI): free vibration;     ε = t*/T*
-l_s = √(EI/κ_sGA),  t_s = √(EIμ)/κ_sGA: shear;     g = J κ_sGA/(EI μ), which is κ_sG/E where nothing moves along
+l_s = √(EI/κ_sGA),  t_s = √(EIμ)/κ_sGA: shear;     g = J κ_sGA/(EI μ): κ_sG/E without added mass
 """
 
 from __future__ import annotations
@@ -127,7 +127,7 @@ class Scales(Part):
         return FreeMotion({(0, 1): self.velocity + self.rotation * self.first_touch, (2, 0): -bow, **terms})
 
     def group(self, load: str) -> float:
-        """A load in units of the fast layer, dimensionless with ν = 1: its term of y₀, or of a force n = N/(μV₀²)."""
+        """A load in units of the fast layer, dimensionless with ν = 1: its term of y₀, or a force over μV₀²."""
         value, powers = getattr(self, load), loads_of(type(self))[load].powers
         if powers is None:
             return value / (self.mass_per_length * self.velocity**2)
@@ -171,8 +171,8 @@ class Scales(Part):
         return self.zone_pressure < 0.0
 
     def load_within(self, half: float, power: int = 0) -> float:
-        """∫xⁿp dx over |x| ≤ ``half`` from the middle, of all loads together, N mⁿ, for an even n = ``power``. Forces
-        along the ends of the bow pull at it with −NK."""
+        """∫xⁿp dx over |x| ≤ ``half`` from the middle, of all loads together, N mⁿ, for an even n = ``power``. An axial
+        force along the tangents at the ends of the bow adds −NK to it."""
         pressure = self._load_against(self.curvature if self.tension_direction == "tangent" else 0.0)
         return pressure * 2.0 * half ** (power + 1) / (power + 1)
 

@@ -145,7 +145,7 @@ WAYS: dict[str, tuple[dict[str, tuple[str, ...]], ...]] = {
 others."""
 KEYS = {name: f"wall.{name.removeprefix('wall_')}" for name in declared(Impact) if name.startswith("wall_")}
 KEYS |= {"opposite_wall": "wall.opposite", "left_end": "beam.ends (left)", "right_end": "beam.ends (right)"}
-OWN = re.compile(rf"(?<![\w./-])(?:{'|'.join(KEYS)})\b(?![/-]|\.\w)")  # no file of that name
+OWN = re.compile(rf"(?<![\w./-])(?:{'|'.join(KEYS)})\b(?![/-]|\.\w)")  # not in the name of a file
 
 TABLES: dict[str, type[Part]] = {"beam": BeamTable, "impact": ImpactTable, "wall": WallTable, "run": RunTable}
 """Tables with fixed fields; ``[section]`` and ``[mesh]`` have a kind."""

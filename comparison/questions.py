@@ -38,7 +38,7 @@ DRAWN, SEED = 5, 15  # runs of an ensemble at a time, without damping
 WEAK = 3e-5  # η/T*: with less a beam keeps waves that grid viscosity absorbs
 RESOLVES = 0.05  # times 1/√(t/T*): refinement of a whole beam's elements that has ten of them in √(ct)
 EARLIEST = 1e-5  # T*: before, those waves carry less than 0.1 ‰ of the impulse
-FINER_AT_ONCE, AT_ONCE, FINEST = 2.0, 0.05, 4.0  # resolution over the whole beam's own choice of a run of 0.05 T*; most
+FINER_SOON, SOON, FINEST = 2.0, 0.05, 4.0  # times as many elements as for the whole impact in a run to 0.05 T*; at most
 INSTANTS, OF_UNIT = 200, 2000  # saved: up to the time asked, evenly in √t; of a whole impact, a T*
 ERROR_BARS = {"drift": (), "quick": (COARSER,), "thorough": (COARSER, FINER)}
 """Resolutions of the companion runs that error bars come from, by name."""
@@ -92,8 +92,8 @@ class Question:
             return method
         finer = 1.0
         if self.until is not None and getattr(method, "mesh", None) is None:
-            share = AT_ONCE * self.impact.slow_time_scale / self.until
-            finer = min(max(1.0, FINER_AT_ONCE * share ** (1.0 / 3.0)), FINEST)
+            share = SOON * self.impact.slow_time_scale / self.until
+            finer = min(max(1.0, FINER_SOON * share ** (1.0 / 3.0)), FINEST)
         return for_whole_beam(refined(method, finer) or method, self.impact)
 
     def companions(self) -> dict[str, tuple[Impact, Method]]:

@@ -175,7 +175,7 @@ def _sensors(scaling: Scaling, beam: Beam, contact: ContactRun, copies: float) -
 
     def impulse() -> list[float]:
         t = mbs.systemData.GetTime() / units.time
-        of_loads = beam.loads(np.array([0.0, t])).mean(axis=0) @ beam.upward * t  # they grow evenly
+        of_loads = beam.loads(np.array([0.0, t])).mean(axis=0) @ beam.upward * t  # linear in time
         return [float(at_first + of_loads - state()[1] @ beam.momentum) * copies * scaling.impulse]
 
     def midpoint() -> list[float]:

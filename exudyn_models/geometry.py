@@ -60,7 +60,7 @@ class Scaling:
     kappa : of the beam against the wall; beam_kappa, wall_kappa : of each.
     front : √(2ν/κ), for choosing a resolution, never to make an answer: without a wall, y₀ = V₀t − Kx²/2 would be
         inside it up to x = √(2V₀t/K), that is λ₀ < √(2ν/κ).
-    motion : y₀ − y_w over amplitude, x from first_touch (Λ); loads : its terms by which the ends are loaded.
+    motion : y₀ − y_w over amplitude, x from first_touch (Λ); loads : the terms of it that load the ends.
     shear_length : l_s/Λ, 0 without shear; rotary_inertia : J/(μΛ²).
     axial_force : N Λ²/EI; load : uniform load per unit length over amplitude, under which y₀ is the motion without
         contact.

@@ -62,8 +62,8 @@ class Rows(NamedTuple):
 class Constraints(NamedTuple):
     """One set of conditions 0 ≤ p ⊥ G x − c ≥ 0 on the constraints, each array (rows,).
 
-    target : c; candidate : whether the constraint may close; least : bound of p. Where it is negative the constraint
-        stays closed whatever p a solution finds; :func:`some_gave_way` then tells whether that was too small.
+    target : c; candidate : whether the constraint may close; least : bound of p. A constraint that may pull, by a
+        negative bound, stays closed in a solution; :func:`some_gave_way` then tells whether it has pulled harder.
     closed : the guess before a solution, the answer after; p : the multipliers, N s unless a scheme says otherwise.
     Gq, Gv : work arrays of the integrator.
     """

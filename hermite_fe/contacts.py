@@ -18,8 +18,8 @@ only:
   instants, when the front is thinner than an element; the impacts of that phase may leave the zone with a velocity
   off the wall ("double detachment", thesis 3.3.5). Off unless stated: a long first step makes it needless
   (:mod:`hermite_fe.resolution`).
-- ``hold``: a constraint that has closed is not released until the front is so many constraints further (the strip
-  shrinks with the mesh: consistent). Behind a moving front the exact reaction is zero, and noise of either sign there
+- ``hold``: a constraint that has closed is not released until the front is so many constraints further. What is held
+  so vanishes as elements shrink. Behind a moving front the exact reaction is zero, and noise of either sign there
   turns into pushes off the wall. Off unless stated, but in runs that measure what a pressing load changes.
 
 Neither acts after t_w = 0.005 T* (:data:`bent_beam.impact.FIRST_SPREAD`), from when on waves from the ends may move the

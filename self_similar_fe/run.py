@@ -40,7 +40,7 @@ __all__ = ["Run", "simulate_expanding"]
 Array = NDArray[np.float64]
 MOST_WORK = 1e9  # steps x nodes: about an hour
 LARGEST_PULL = 0.1  # in any step, over the largest push: sound runs under loads reach 0.03 by round-off
-MOST_WIDENED = 100.0  # likewise
+MOST_WIDENED = 100.0  # times a tolerance of the active set that had to be widened in a step
 OF_CONTACTS = ("impulse", "in_contact")  # all else along the beam is at its nodes
 
 

@@ -26,7 +26,7 @@ Array = NDArray[np.float64]
 
 ZONE = 0.7  # of the front: what pushes there is what the zone behind the front bears
 AROUND = 0.1  # of the time, before and after
-JUMP = 0.05  # of a rim: what it moves on by between two saved instants is a tenth of it
+JUMP = 0.05  # of a rim, between two saved instants: a smooth one moves on by a tenth of that
 PUSH = 1e-9  # of the largest impulse of a contact point: less is round-off
 
 

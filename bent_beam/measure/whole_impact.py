@@ -11,7 +11,7 @@ contact, where the run goes on so long.
 
 A separation is a time of at least :data:`SHORTEST_SEPARATION` T* without a push: without a smallest duration there is
 no such number (the reaction of a beam that is stopped at a point changes sign arbitrarily fast). :func:`hits` lists all
-hits; each is of one wall, without the other in between.
+hits; each is of one wall, and ends where the other one is hit.
 """
 
 from __future__ import annotations

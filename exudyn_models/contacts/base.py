@@ -48,8 +48,8 @@ class Wall:
     half : only x ≥ 0 is modelled;
     first_spread : until when (in end times) nothing but the first spread of the zone moves it: waves are back later;
     lifts : load or damping lifts the zone from the first, or the beam touches in a point: no start is held;
-    plastic : the front is thin, so that nodes that hit must not rebound, and nothing but the first spread moves it: how
-        much of the damping that such hits take the run asks for; 0 elsewhere;
+    plastic : the front is thin, so that nodes that hit must not rebound, and nothing but the first spread moves it:
+        from 0 to 1, the share of the damping for such hits that the run asks for; 0 elsewhere;
     """
 
     nodes: Indices
