@@ -11,6 +11,10 @@ scheme shows what the scheme does. Without damping late motion does not converge
 elements, steps and contact laws are drawn from a seed. Such a beam also keeps the short waves that its ends send back
 at once. Grid viscosity absorbs them in a run and in its coarser companion alike, so that an early question has one
 companion without it, on even elements. The same question gets the same numbers, from runs that are kept.
+
+A further cause of error is a companion here (another contact law: the method's ``cross_checks``), or, where no
+companion shows it, a known size: at a time in :mod:`comparison.predicting`, of a whole impact in
+:mod:`comparison.bouncing`.
 """
 
 from __future__ import annotations
