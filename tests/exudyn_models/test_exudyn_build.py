@@ -44,6 +44,12 @@ def test_plain_exudyn_gives_the_impulse_of_theory_and_of_simulate(seed):
     assert found == pytest.approx(impulse_of_theory(kappa_over_nu), rel=1e-3)
 
 
+def test_elements_are_equal_in_the_zone_and_longer_ahead_of_it():
+    model = exudyn_models.build(SHORT)
+    lengths = np.diff([model.mbs.GetNode(node)["referenceCoordinates"][0] for node in model.nodes])
+    assert np.all(np.diff(lengths) > -1e-9 * lengths[0]) and lengths[-2] > 1.5 * lengths[0]
+
+
 def test_items_are_in_si_units_and_sensors_agree_with_one_another():
     """Momentum is lost to the force; the zone stays at the wall; energy is that of the arriving beam, less losses."""
     model, read = solved(STEEL, mesh=UniformMesh(0.015), save=1500)

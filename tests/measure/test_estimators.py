@@ -150,6 +150,8 @@ def test_companions_that_differ_and_a_reaction_that_does_not_reach_the_load_wide
     full, open_zone = (first_order(runs, base, leading, pressure=pressure) for pressure in (1.5, 2.0))
     assert open_zone.r1.value == full.r1.value
     assert open_zone.r1.bar > 0.5 and open_zone.lambda1.bar > 0.25 > 5.0 * full.lambda1.bar
+    force, front = (one.parts["uniform_reaction"] for one in (open_zone.r1, open_zone.lambda1))
+    assert front / force == pytest.approx(0.5 * leading.lambda0.known / leading.r0.known)  # λ₀r₁ + r₀λ₁ is the moment
 
 
 def test_a_zone_that_should_lift_and_does_not_widens_the_error_bars():
