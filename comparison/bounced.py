@@ -85,7 +85,7 @@ class Bounce:
 
     @cached_property
     def history(self) -> ImpactHistory:
-        """Of the run itself; simulated again unless it was asked for with the numbers."""
+        """Of the run itself; simulated again where a store keeps its reading alone."""
         if self.runs.history is not None:
             return self.runs.history
         return self.runs.question.run(self.runs.question.run_by)

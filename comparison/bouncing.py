@@ -68,7 +68,6 @@ def bounce(
     seed: int = SEED,
     save: int | None = None,
     store: RunStore | None = None,
-    history: bool = False,
     jobs: int = 1,
     progress: Callable[[float], None] | None = None,
 ) -> Bounce:
@@ -76,7 +75,7 @@ def bounce(
     no damping, over :data:`DAMPING_RATIOS`.
 
     runs, seed : of the ensemble, where the beam has no damping. save : saved instants a T*.
-    store : where runs are kept. history : also keep that of the run itself.
+    store : where runs are kept.
     Raises ``ValueError`` for what the method refuses, :class:`bent_beam.SimulationError` when it cannot finish.
     """
     case = case_of(beam)
@@ -89,9 +88,9 @@ def bounce(
         )
     how: dict[str, Any] = {"store": store, "jobs": jobs}
     if not case.damping_stated and not (impact.damping or impact.hysteretic_loss):
-        return _over_ratios(case, method, progress or (lambda _: None), how | {"save": save, "history": history})
+        return _over_ratios(case, method, progress or (lambda _: None), how | {"save": save})
     question = Question(impact, method, save=save, band=None if converges(impact) else (runs, seed))
-    made = runs_of(question, whole_reading, whole_history=history, progress=progress, **how)
+    made = runs_of(question, whole_reading, progress=progress, **how)
     return Bounce(case, whole_numbers(made), made)
 
 

@@ -56,7 +56,7 @@ def bounce(
     from comparison.texts import hits_table
     from comparison.whole_numbers import OF_ONE_WALL
 
-    how: dict[str, Any] = {"runs": runs, "seed": seed, "jobs": jobs, "history": out is not None or hits > 1}
+    how: dict[str, Any] = {"runs": runs, "seed": seed, "jobs": jobs}
     how["store"], every = RunStore.usual(fresh), []
     for one, method in asked:
         with progress(f"{method.path}: the whole impact", quiet) as bar:
