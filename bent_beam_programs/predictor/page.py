@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 from bent_beam.files import write_atomically
+from bent_beam.measure.numbers import FACTOR
 from bent_beam_programs.predictor.coefficients import coefficients
+from comparison.bouncing import DAMPING_RATIOS
 from comparison.doubts import LEAST_RESTITUTION, STEEP, WIDE
 from comparison.readable import BEAMS, BEFORE, LIMITS, REGIMES
+from comparison.runs import LEAST
 from theory import contact_parameters, shear, validity, wall_prediction
 from theory.second_order import second_order
 
@@ -22,6 +27,8 @@ WORDS = {"regimes": REGIMES, "limits": LIMITS, "before": BEFORE, "beams": BEAMS}
 
 DOUBTS = {"wide": WIDE, "least_restitution": LEAST_RESTITUTION, "steep": STEEP}
 """From when on ``bentbeam bounce`` warns."""
+BARS = {"factor": FACTOR, "least": LEAST, "ratios": DAMPING_RATIOS}
+"""Of its error bars, and the damping ratios that it takes where none is stated."""
 
 
 def constants() -> dict[str, float]:
@@ -49,19 +56,14 @@ def constants() -> dict[str, float]:
 
 def script(names: tuple[str, ...] = (*MODEL, *PAGE)) -> str:
     """The scripts, after the numbers and words that they read."""
-    data = {"COEFFICIENTS": coefficients(), "VALIDITY": constants(), "WORDS": WORDS, "DOUBTS": DOUBTS}
-    numbers = [
-        f"const {name} = {json.dumps(value, separators=(',', ':'), ensure_ascii=False)};"
-        for name, value in data.items()
-    ]
-    return "\n".join([*numbers, *(_source(name) for name in names)])
+    data = {"COEFFICIENTS": coefficients(), "VALIDITY": constants(), "WORDS": WORDS, "DOUBTS": DOUBTS, "BARS": BARS}
+    return _script(data, names)
 
 
 def page() -> str:
     """The page as text, complete in itself. What the workers run stands in it once, as the page's own script."""
     text = _source("predictor.html").replace("{{ style }}", _source("predictor.css"))
-    simulation = "\n".join(_source(name) for name in SIMULATION)
-    return text.replace("{{ simulation }}", simulation).replace("{{ script }}", script())
+    return text.replace("{{ simulation }}", _script({"BARS": BARS}, SIMULATION)).replace("{{ script }}", script())
 
 
 def write_page(file: str | Path) -> Path:
@@ -69,6 +71,12 @@ def write_page(file: str | Path) -> Path:
     path = Path(file)
     write_atomically(path, page())
     return path
+
+
+def _script(data: Mapping[str, Any], names: tuple[str, ...]) -> str:
+    """The scripts after what they read, by its name."""
+    read = {name: json.dumps(value, separators=(",", ":"), ensure_ascii=False) for name, value in data.items()}
+    return "\n".join([*(f"const {name} = {text};" for name, text in read.items()), *map(_source, names)])
 
 
 def _source(name: str) -> str:

@@ -2,8 +2,7 @@
 // A whole impact as numbers with bars: which runs, and what they say together (bent_beam/measure/numbers.py).
 const Answer = (() => {
   const { abs, max, min, round, sqrt } = Math;
-  const FACTOR = 1.5, LEAST = 1e-4; // of what a companion changes; of the number: closer agreement is chance
-  const RATIOS = [0.0002, 0.002, 0.02]; // damping ratios where none is stated
+  const { factor: FACTOR, least: LEAST, ratios: RATIOS } = BARS; // of bentbeam bounce
   const DRAWN = [140, 92, 124, 80, 108, 132]; // elements of an ensemble; nodes rebound by 0, ½ and 1 of their velocity
   const NAMES = ["restitution", "impulse", "lastContact", "moment", "force"];
   const quick = ({ wall }) => ({ elements: 32, steps: wall ? 1000 : 1600, longest: 3 }); // for a first picture
