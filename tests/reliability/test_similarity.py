@@ -17,7 +17,7 @@ from exudyn_models.contacts import Rigid, SegmentFriction
 from exudyn_models.elements import GeometricallyExact
 from exudyn_models.geometry import TrueGeometry
 from exudyn_models.integrators import RK44, Newmark
-from hermite_fe.integrators import MoreauJean, SignoriniPosition
+from hermite_fe.integrators import MoreauJean, NonsmoothGeneralizedAlpha, SignoriniPosition
 from self_similar_fe.mesh import ExpandingMesh
 from self_similar_fe.run import simulate_expanding
 from theory import predict
@@ -85,6 +85,10 @@ def moreau_jean(impact):
     return hermite(impact, MoreauJean(time_step=1e-4 * impact.time_scale), full_beam=True)
 
 
+def generalised_alpha(impact):
+    return hermite(impact, NonsmoothGeneralizedAlpha(time_step=2e-3 * impact.time_scale, growth=0.0))
+
+
 def expanding(impact):
     mesh = ExpandingMesh(front_resolution=0.05, decades=2.0)
     return simulate_expanding(impact, mesh, end_time=0.1 * impact.time_scale, save=10)
@@ -102,6 +106,7 @@ def exudyn(impact, **parts):
 RUNS = {
     "hermite": (signorini, 30.0, {}, 1e-10),
     "hermite, full beam": (moreau_jean, 10.0, {}, 1e-10),
+    "hermite, generalised-α": (generalised_alpha, 30.0, {}, 1e-10),
     "expanding mesh": (expanding, 30.0, {}, 1e-8),
     "exudyn": (exudyn, 5.0, LOADS, 1e-10),
 }
@@ -114,7 +119,7 @@ EXUDYN = {
 }
 for name, (parts, near) in EXUDYN.items():
     RUNS[f"exudyn, {name}"] = (functools.partial(exudyn, **parts), 5.0, LOADS, near)
-QUICK = ("hermite", "expanding mesh", "exudyn")
+QUICK = ("hermite", "hermite, generalised-α", "expanding mesh", "exudyn")
 KINDS = [kind if kind in QUICK else pytest.param(kind, marks=pytest.mark.verify) for kind in RUNS]
 
 
@@ -127,9 +132,12 @@ def simulated(kind):
 def fields(history):
     impact = history.impact
     momentum = impact.mass_per_length * impact.velocity * impact.length_scale
-    units = {"gap": impact.length_scale, "velocity": impact.velocity, "slope": 1.0, "total_impulse": momentum}
-    units |= dict.fromkeys(("strain_energy", "kinetic_energy"), momentum * impact.velocity)
-    return {name: history.array(name) / unit for name, unit in units.items()}
+    energies = ("strain_energy", "kinetic_energy", "work_of_loads", "loss_absorbed")
+    units = {"velocity": impact.velocity, "slope": 1.0} | dict.fromkeys(energies, momentum * impact.velocity)
+    units |= dict.fromkeys(("position", "gap"), impact.length_scale)
+    units |= dict.fromkeys(("impulse", "total_impulse"), momentum)
+    found = {name: history.array(name) / unit for name, unit in units.items() if name in history}
+    return {name: values for name, values in found.items() if values.any()}
 
 
 @pytest.mark.parametrize("scales", TWINS if FUZZ else [TWINS[0], TWINS[3]])
@@ -137,10 +145,11 @@ def fields(history):
 def test_twins_have_the_same_history_to_round_off(kind, scales):
     run, length, loads, near = RUNS[kind]
     one, other = fields(simulated(kind)), fields(run(twin(*scales, length, **loads)))
-    assert one["total_impulse"][-1] > 0.0
-    difference = max(float(np.abs(one[name] - other[name]).max() / np.abs(one[name]).max()) for name in one)
-    print(f"twins, {kind}: {difference:.1e}")
-    assert difference < near
+    assert one["total_impulse"][-1] > 0.0 and one.keys() == other.keys()
+    differences = {name: float(np.abs(one[name] - other[name]).max() / np.abs(one[name]).max()) for name in one}
+    differences["impulse"] *= 0.01  # how it spreads over the nodes is a hundred times as sensitive as its sum
+    print(f"twins, {kind}: {max(differences.values()):.1e}")
+    assert max(differences.values()) < near
 
 
 @pytest.mark.parametrize("kind", KINDS)

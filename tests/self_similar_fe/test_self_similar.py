@@ -84,15 +84,6 @@ def test_impulse_and_energies_grow_like_the_root_of_the_time_and_far_ahead_the_b
         assert gap == pytest.approx(0.25 * x**2 - half.time[k], rel=1e-6)
 
 
-def test_in_other_units_the_run_is_the_same(half):
-    """l* = 4 m, t* = 8 s."""
-    other = simulate_expanding(Impact(8.0, 2.0, 4.0 * half.impact.length, 0.125, 0.5), QUICK, end_time=0.8)
-    units = {"position": 4.0, "gap": 4.0, "velocity": 0.5, "impulse": 4.0, "total_impulse": 4.0, "kinetic_energy": 2.0,
-             "strain_energy": 2.0, "work_of_loads": 2.0, "loss_absorbed": 2.0}  # fmt: skip
-    for name, unit in units.items():
-        assert other.array(name)[-1] == pytest.approx(unit * half.array(name)[-1], rel=1e-6, abs=1e-9), name
-
-
 def test_what_breaks_self_similarity_is_refused_by_name():
     impact = Impact.dimensionless(0.5)
     for name in ("damping", "rotation", "first_touch", "opposite_wall"):
@@ -122,7 +113,9 @@ def test_the_middle_lifts_when_the_load_pulls_and_stays_unpulled_when_it_pushes(
     assert abs(pushed.array("held_impulse")[-1]) < 0.01 * pushed.array("total_impulse")[-1]
 
 
-def test_the_wall_pulls_in_no_step_where_contacts_wander_and_what_had_to_be_widened_is_told(monkeypatch):
+def test_the_wall_pulls_in_no_step_where_contacts_wander_and_tolerances_that_had_to_be_widened_are_warned_of(
+    monkeypatch,
+):
     """α = −1 pulls the beam off: the contact is one or two nodes, which exchanging all wrong ones never settles."""
     pulled, mesh = Impact.dimensionless(0.1, epsilon_alpha=-1.0), ExpandingMesh(step_ratio=0.01)
     history = SelfSimilarFE(mesh=mesh).simulate(pulled, end_time=0.05)
