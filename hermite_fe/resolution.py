@@ -23,7 +23,7 @@ must be a fraction of ℓ where the front is, steps a fraction of its travel ove
 
 A whole beam asks for something else: :mod:`hermite_fe.whole_beam`.
 
-The constants below are studied in tests/hermite_fe/test_constants.py: halved and doubled they move λ₀ and r₀ by less
+The constants below are studied in tests/comparison/test_constants.py: halved and doubled they move λ₀ and r₀ by less
 than the error bar that goes with them.
 """
 

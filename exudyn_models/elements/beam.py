@@ -21,7 +21,7 @@ from exudyn_models.geometry import MODEL_UNITS, Array, Indices, Shape, Units, el
 
 __all__ = ["Beam", "Element", "Section", "shares"]
 
-VISCOSITY = 0.15  # of √(EIμ)Δx² of an element, λ₀ is off in proportion; tests/exudyn_models/test_exudyn_constants.py
+VISCOSITY = 0.15  # of √(EIμ)Δx² of an element, λ₀ is off in proportion; tests/comparison/test_constants.py
 VISCOSITY_SHEARED = 0.015  # of an element shorter than l_s, in its own time; with 0.15 the first moments are 7 % low
 VISCOSITY_EXPLICIT = 0.003  # more would shorten the stable step
 ROUNDED = 16.0  # times the rounding of one node's force: a residual gathers those of all nodes (seen: 2 to 8)
