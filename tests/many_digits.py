@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import mpmath as mp
 
-__all__ = ["CLOSED", "closed_form", "iterated_erfc", "phi_pair", "row"]
+__all__ = ["CLOSED", "closed_form", "phi_pair", "row", "wave"]
 
 PI = mp.pi
 with mp.workdps(130):
@@ -51,12 +51,20 @@ def phi_pair(x: mp.mpf) -> tuple[mp.mpf, mp.mpf]:
     return cosine * (1 - 2 * s) - sine * (1 - 2 * c), cosine * (1 - 2 * c) + sine * (1 - 2 * s)
 
 
-def iterated_erfc(z: mp.mpc, order: int) -> list[mp.mpc]:
-    """erfc z, ierfc z, …, up to iⁿerfc z of this order."""
-    values = [mp.erfc(z), mp.exp(-(z**2)) / mp.sqrt(mp.pi) - z * mp.erfc(z)]
-    for n in range(2, order + 1):
-        values.append((values[-2] - 2 * z * values[-1]) / (2 * n))
-    return values
+def wave(n: int) -> Callable[[mp.mpf, int], mp.mpc]:
+    """Derivatives in x of iⁿerfc(e^{−iπ/4}x/2), by 2n iⁿerfc = i^{n−2}erfc − 2z i^{n−1}erfc either way."""
+
+    def value(x: mp.mpf, m: int) -> mp.mpc:
+        turn = mp.exp(-mp.j * mp.pi / 4) / 2
+        z = turn * x
+        i = {-1: 2 * mp.exp(-z * z) / mp.sqrt(mp.pi), 0: mp.erfc(z)}
+        for k in range(-2, n - m - 1, -1):
+            i[k] = 2 * z * i[k + 1] + 2 * (k + 2) * i[k + 2]
+        for k in range(1, n - m + 1):
+            i[k] = (i[k - 2] - 2 * z * i[k - 1]) / (2 * k)
+        return (-turn) ** m * i[n - m]
+
+    return value
 
 
 def row(c: mp.mpc) -> list[mp.mpf]:

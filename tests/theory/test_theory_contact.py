@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from many_digits import iterated_erfc, phi_pair, row
+from many_digits import phi_pair, row, wave
 
 from theory import contact_parameters
 
@@ -40,18 +40,16 @@ def patched_waves(ratio: float, alpha: float, psi: float, chi: float, axial: flo
     with the slow motion's deflection and slope. No integral and no φ function is involved.
     """
     with mp.workdps(DIGITS):
-        x, step, kappa = front(ratio), mp.exp(-1j * mp.pi / 4) / 2, mp.mpf(ratio)
-        e = iterated_erfc(step * x, 4)
-        gauss = 2 / mp.sqrt(mp.pi) * mp.exp(-((step * x) ** 2))  # −d erfc/dz
-        wave = [e[2], -step * e[1], step**2 * e[0], -(step**3) * gauss]
+        x, kappa = front(ratio), mp.mpf(ratio)
+        first = [wave(2)(x, m) for m in range(5)]
         # leading order: slope and curvature fix B₀; deflection and third derivative give r₀ and a check
-        b0 = mp.lu_solve(mp.matrix([row(wave[1]), row(wave[2])]), mp.matrix([-kappa * x, -kappa]))
+        b0 = mp.lu_solve(mp.matrix([row(first[1]), row(first[2])]), mp.matrix([-kappa * x, -kappa]))
         b0 = mp.mpc(b0[0], b0[1])
-        residual = mp.re(b0 * wave[0]) - (1 - kappa * x**2 / 2)
-        third, fourth = mp.re(b0 * wave[3]), mp.re(2 * b0 * step**5 * x * gauss)
+        residual = mp.re(b0 * first[0]) - (1 - kappa * x**2 / 2)
+        third, fourth = mp.re(b0 * first[3]), mp.re(b0 * first[4])
         r0 = third / mp.sqrt(2 / mp.pi)
-        outside = [row(e[4]), row(-step * e[3]), row(step**2 * e[2]), row(-(step**3) * e[1])]
-        of_axial = [mp.mpf(axial) * mp.im(b0 * w) / 2 for w in wave]
+        outside = [row(wave(4)(x, m)) for m in range(4)]
+        of_axial = [mp.mpf(axial) * mp.im(b0 * w) / 2 for w in first[:4]]
         slow = [psi * x**4 / 24 + chi * x**2 / 2 + mp.mpf(alpha) / 2, psi * x**3 / 6 + chi * x]
         slow += [psi * x**2 / 2 + chi, psi * x]
         jump = [[0, 0], [0, 0], [third, 0], [fourth, -mp.sqrt(2 / mp.pi)]]  # by λ₁ and r₁

@@ -5,6 +5,7 @@ from collections.abc import Callable, Sequence
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from many_digits import wave
 from mpmath import mp, mpf
 
 from theory import contact_parameters
@@ -34,22 +35,6 @@ def test_the_border_of_the_regimes_and_the_square_of_the_loads(ratio: float) -> 
 
 
 Term = Callable[[mpf, mpf, int], mpf]  # of x, τ and the order of the derivative in x
-TURN = mp.exp(-mp.j * mp.pi / 4) / 2
-
-
-def wave(n: int) -> Callable[[mpf, int], mpf]:
-    """Derivatives in x of iⁿerfc(e^{−iπ/4}x/2), by 2n iⁿerfc = i^{n−2}erfc − 2z i^{n−1}erfc either way."""
-
-    def value(x: mpf, m: int) -> mpf:
-        z = TURN * x
-        i = {-1: 2 * mp.exp(-z * z) / mp.sqrt(mp.pi), 0: mp.erfc(z)}
-        for k in range(-2, n - m - 1, -1):
-            i[k] = 2 * z * i[k + 1] + 2 * (k + 2) * i[k + 2]
-        for k in range(1, n - m + 1):
-            i[k] = (i[k - 2] - 2 * z * i[k - 1]) / (2 * k)
-        return (-TURN) ** m * i[n - m]
-
-    return value
 
 
 def even(*coefficients: mpf) -> Callable[[mpf, int], mpf]:

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from many_digits import row, wave
 
 from theory import SelfSimilarWave, contact_parameters, peak_moment, phi
 
@@ -64,19 +65,11 @@ def test_moment_ahead_in_many_digits(ratio: float) -> None:
     """B from λ₀ and the slow motion alone, the extremum by a root search of E‴."""
     found = peak_moment(ratio)
     with mp.workdps(60):
-        turn, x = mp.exp(-1j * mp.pi / 4) / 2, mp.mpf(contact_parameters(ratio).lambda0)
-
-        def waves(x: mp.mpf) -> tuple[mp.mpc, mp.mpc, mp.mpc]:
-            z = turn * x
-            gauss = mp.exp(-(z**2)) / mp.sqrt(mp.pi)
-            return gauss - z * mp.erfc(z), mp.erfc(z), gauss
-
-        first, second, _ = waves(x)
-        rows = [[mp.re(c), -mp.im(c)] for c in (-turn * first, turn**2 * second)]
+        x, e = mp.mpf(contact_parameters(ratio).lambda0), wave(2)
         b = mp.matrix([-mp.mpf(ratio) * x, -mp.mpf(ratio)])
-        amplitude = mp.mpc(*mp.lu_solve(mp.matrix(rows), b))
-        place = mp.findroot(lambda y: mp.re(amplitude * turn**3 * waves(y)[2]), mp.mpf(found.place))
-        moment = mp.re(amplitude * turn**2 * waves(place)[1])
+        amplitude = mp.mpc(*mp.lu_solve(mp.matrix([row(e(x, 1)), row(e(x, 2))]), b))
+        place = mp.findroot(lambda y: mp.re(amplitude * e(y, 3)), mp.mpf(found.place))
+        moment = mp.re(amplitude * e(place, 2))
     # λ₀ itself is known to a rounding only, hence not 1e-15
     assert found.place == pytest.approx(float(place), rel=1e-10)
     assert found.ahead == pytest.approx(float(moment), rel=1e-10)
