@@ -2,9 +2,9 @@
 
 import itertools
 import re
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[1]
+from here import ROOT
+
 RAISED = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹−", "-0123456789-")
 NUMBER = re.compile(r"([-+]?\d+(?:\.(\d+))?)(?:(?:·10|e)([-+]?\d+))?")
 

@@ -8,12 +8,11 @@ import subprocess
 import sys
 import tomllib
 import zipfile
-from pathlib import Path
 
 import pytest
 from called import CASE, refused
+from here import ROOT
 
-ROOT = Path(__file__).resolve().parent.parent
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
 PACKAGES = sorted(
     p.name for p in ROOT.iterdir() if (p / "__init__.py").is_file() and p.name not in ("benchmarks", "tests")

@@ -1,14 +1,242 @@
-"""Case files: what is accepted, and the one line that a mistake gives."""
+"""Case files: a beam described as its owner knows it is the beam that its numbers say; what clashes, or is mistaken, is
+refused by name and value."""
 
-from pathlib import Path
+import math
+import re
 
 import pytest
+from here import CASES
 
 from bent_beam import InputError, load_case
-from bent_beam.cases import case_from_tables
+from bent_beam.cases import case_from_tables, lay_over
+from bent_beam.loads import wall_scales
 from bent_beam.meshes import GradedMesh
+from bent_beam.section import General, Pipe, Rectangle, RoundBar
 
-CASES = Path(__file__).parents[2] / "cases"
+STEEL = {"youngs_modulus": 206e9, "density": 7850.0}
+PIPE = {"kind": "pipe", "outer_diameter": 0.127, "wall_thickness": 0.0092, **STEEL}
+
+
+def case(beam=None, section=PIPE, impact=None, **more):
+    bow = {"curvature": 0.002} if beam is None else beam
+    tables = {"beam": {"length": 30.0, **bow}, "impact": {"velocity": 2.0} if impact is None else impact, **more}
+    return case_from_tables(tables | ({"section": section} if section else {}))
+
+
+def test_pipe_is_outer_less_inner_bar_with_what_it_carries_along():
+    pipe = Pipe(outer_diameter=0.127, inner_diameter=0.1086, **STEEL)
+    outer, inner = RoundBar(diameter=0.127, **STEEL), RoundBar(diameter=0.1086, **STEEL)
+    assert pipe.bending_stiffness == pytest.approx(outer.bending_stiffness - inner.bending_stiffness, rel=1e-13)
+    assert pipe.mass_per_length == pytest.approx(outer.mass_per_length - inner.mass_per_length, rel=1e-13)
+    walled = Pipe(outer_diameter=0.127, wall_thickness=0.0092, **STEEL)
+    assert walled.bore == pytest.approx(0.1086, rel=1e-13)
+    assert walled.area == pytest.approx(math.pi * 0.0092 * (0.127 - 0.0092), rel=1e-13)  # along its middle line
+    assert pipe.section_modulus == pytest.approx(pipe.second_moment / 0.0635, rel=1e-13)
+    wet = Pipe(outer_diameter=0.127, inner_diameter=0.1086, fluid_density=1000.0, added_mass=3.0, **STEEL)
+    carried = 1000.0 * math.pi * 0.0543**2 + 3.0
+    assert wet.mass_per_length - pipe.mass_per_length == pytest.approx(carried, rel=1e-12)
+    assert wet.bending_stiffness == pipe.bending_stiffness
+
+
+def test_shear_coefficients_are_cowpers():
+    """Cowper 1966, Table 1: 6(1 + ν)/(7 + 6ν) and 10(1 + ν)/(12 + 11ν); a thin round tube; a tube without a bore."""
+    bar, flat = RoundBar(diameter=0.1, **STEEL), Rectangle(width=1.0, thickness=0.1, **STEEL)
+    thin, thick = (Pipe(outer_diameter=0.1, inner_diameter=bore, **STEEL) for bore in (0.0999, 0.0))
+    for section, expected in ((bar, 0.8864), (flat, 0.8497), (thin, 2 * 1.3 / (4 + 3 * 0.3)), (thick, 0.8864)):
+        assert section.shear_coefficient == pytest.approx(expected, rel=2e-3)
+        modulus = section.youngs_modulus / 2.6  # E/(2(1 + ν))
+        assert section.shear_stiffness == pytest.approx(expected * modulus * section.area, rel=2e-3)
+
+
+def test_a_section_that_knows_its_shear_makes_timoshenko_s_beam_unless_euler_and_bernoulli_s_is_asked_for():
+    found, pipe = (
+        case({"curvature": 0.002, "model": "timoshenko"}).impact,
+        Pipe(**{k: PIPE[k] for k in PIPE if k != "kind"}),
+    )
+    assert (found.model, found.shear_stiffness) == ("timoshenko", pipe.shear_stiffness)
+    assert found.rotary_inertia == pytest.approx(7850.0 * pipe.second_moment, rel=1e-14)
+    assert found.shear_ratio == pytest.approx(pipe.shear_coefficient / 2.6, rel=1e-12)  # κ_sG/E: nothing moves along
+    assert case({"curvature": 0.002, "model": "euler_bernoulli"}).impact == found.unsheared
+    plain = {"curvature": 0.002, "bending_stiffness": 2e6, "mass_per_length": 30.0}
+    assert case(plain, None).impact.model == "euler_bernoulli"
+    assert case(plain | {"shear_stiffness": 5e7, "model": "timoshenko"}, None).impact.shear_length == pytest.approx(0.2)
+
+
+@pytest.mark.parametrize(
+    ("beam", "section", "message"),
+    [
+        ({"model": "timoshenko", "bending_stiffness": 1.0, "mass_per_length": 1.0}, None, "needs beam.shear_stiffness"),
+        ({"rotary_inertia": 1.0, "bending_stiffness": 1.0, "mass_per_length": 1.0}, None, "no effect without"),
+        ({"shear_stiffness": 1e7}, PIPE, "say the same thing"),
+        ({"model": "rayleigh"}, PIPE, "beam.model must be one of"),
+    ],
+)
+def test_what_contradicts_the_model_is_refused_by_name(beam, section, message):
+    with pytest.raises(InputError, match=message):
+        case({"curvature": 0.002, **beam}, section)
+
+
+def test_stress_of_a_rectangle_under_moment_and_tension():
+    section = Rectangle(width=0.03, thickness=0.002, **STEEL)
+    assert section.stress(1.0) == pytest.approx(6.0 / (0.03 * 0.002**2), rel=1e-13)  # 6M/(b h²)
+    assert section.stress(0.0, -600.0) == pytest.approx(600.0 / (0.03 * 0.002), rel=1e-13)
+    assert section.radius_of_gyration == pytest.approx(0.002 / math.sqrt(12.0), rel=1e-13)
+
+
+def test_the_bow_by_its_sagitta_or_its_dogleg():
+    """The circle through both ends and the middle; degrees in thirty metres."""
+    radius = 1.0 / case({"sagitta": 0.3, "sagitta_length": 20.0}).impact.curvature
+    assert radius - math.sqrt(radius**2 - 100.0) == pytest.approx(0.3, rel=1e-12)
+    assert case({"dogleg": 3.0}).impact.curvature * 30.0 == pytest.approx(math.radians(3.0), rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("impact", "velocity", "acceleration"),
+    [
+        ({"drop_height": 0.5, "gravity": 9.0}, 3.0, 9.0),  # it falls on
+        ({"velocity": 1.0, "gravity": 9.0, "gravity_angle": 60.0}, 1.0, 4.5),
+        ({"angular_speed": 0.2}, 3.0, 0.0),
+        ({"angular_speed": 0.2, "angular_arm": 5.0}, 1.0, 0.0),
+    ],
+)
+def test_a_beam_arrives_as_it_falls_or_swings(impact, velocity, acceleration):
+    found = case(impact=impact).impact
+    assert found.velocity == pytest.approx(velocity, rel=1e-14)
+    assert found.acceleration == pytest.approx(acceleration, rel=1e-12)
+
+
+def test_a_wall_that_gives_way_and_the_ends_are_what_the_tables_say():
+    found = case({"curvature": 0.002, "ends": ["hinged", "free"]}, wall={"stiffness": 1e6, "damping_ratio": 0.5}).impact
+    assert found.wall_damping == pytest.approx(math.sqrt(1e6 * found.mass_per_length), rel=1e-14)
+    assert (found.left_end, found.right_end, found.off_centre) == ("hinged", "free", True)
+    length, time = wall_scales(found)
+    assert length**4 == pytest.approx(found.bending_stiffness / 1e6)
+    assert time**2 == pytest.approx(found.mass_per_length / 1e6)
+    stop = case({"curvature": 0.002}, wall={"stiffness": 1e6, "from": 0.0, "to": 0.0}).impact
+    assert wall_scales(stop).length ** 3 == pytest.approx(stop.bending_stiffness / 1e6)
+
+
+def test_tension_straightens_the_bow_in_flight_and_along_the_axis_pulls_no_beam_to_its_wall():
+    """Two forces along one line have no sum; along the bow's ends theirs is −NKL."""
+    axis, tangent, held = (
+        case({"curvature": 0.002, "axial_force": 1e5, **beam}, impact={"velocity": 2.0, **impact}).impact
+        for beam, impact in (({}, {}), ({"tension_direction": "tangent"}, {}), ({}, {"acceleration": 0.0}))
+    )
+    assert axis.acceleration == pytest.approx(-1e5 * 0.002 / axis.mass_per_length, rel=1e-12)
+    assert axis.uniform_pressure == pytest.approx(0.0, abs=1e-9)
+    assert held.uniform_pressure == pytest.approx(200.0, rel=1e-12)
+    assert axis.tension_direction == "axis" and axis.net_load == pytest.approx(0.0, abs=1e-9)
+    assert tangent.net_load == pytest.approx(-1e5 * 0.002, rel=1e-12)
+    assert held.load_within(3.0, 2) == pytest.approx(200.0 * 2.0 * 3.0**3 / 3.0)
+
+
+def test_damping_ratio_and_loss_factor_are_the_same_time_constant():
+    ratio = case({"curvature": 0.002, "damping_ratio": 0.01}).impact
+    first = (4.730040744862704 / 30.0) ** 2 * ratio.wave_constant  # rad/s
+    assert ratio.damping == pytest.approx(2 * 0.01 / first, rel=1e-9)
+    loss = case({"curvature": 0.002, "loss_factor": 0.02, "loss_frequency": first / (2 * math.pi)}).impact
+    assert loss.damping == pytest.approx(ratio.damping, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("tables", "message"),
+    [
+        ({"beam": {"curvature": 0.1, "sagitta": 0.1}}, "beam.curvature = 0.1 and beam.sagitta = 0.1"),
+        ({"beam": {}}, "beam.curvature is required"),
+        ({"beam": {"sagitta": 20.0}}, "beam.sagitta must be less than half"),
+        ({"beam": {"sagitta": 0.1, "sagitta_length": 40.0}}, "must not exceed beam.length"),
+        ({"beam": {"curvature": 0.1, "bending_stiffness": 1.0}}, "beam.bending_stiffness = 1.0 and"),
+        ({"section": None}, "beam.bending_stiffness is required"),
+        ({"section": PIPE | {"wall_thickness": 0.1}}, "walls cross"),
+        ({"section": PIPE | {"inner_diameter": 0.1}}, "say the same"),
+        ({"section": PIPE | {"kind": "tube"}}, "tube"),
+        ({"section": PIPE | {"poisson_ratio": 0.51}}, "poisson_ratio"),
+        ({"impact": {}}, "impact.velocity is required"),
+        ({"impact": {"velocity": 1.0, "drop_height": 1.0}}, "impact.velocity = 1.0 and impact.drop_height"),
+        ({"impact": {"drop_height": 1.0, "gravity_angle": 90.0001}}, "needs gravity towards the wall"),
+        ({"beam": {"curvature": 0.1, "loss_factor": 0.1}}, "loss_frequency is required"),
+        ({"beam": {"curvature": 0.1, "hysteretic_loss": 0.1}}, "hysteretic_loss .got 0.1 alone.* is at [0-9.]+ Hz"),
+        ({"beam": {"curvature": 0.1, "hysteretic_loss": 0.1, "loss_frequency": 1e9}}, "loss_frequency .*got 10{9}.0"),
+        ({"beam": {"curvature": 0.1, "hysteretic_loss": 0.1, "loss_factor": 0.1}}, "loss_factor = 0.1 and beam.hyst"),
+        ({"beam": {"curvature": 0.1, "loss_frequency": 10.0}}, "loss_frequency has no effect"),
+        ({"beam": {"curvature": 0.1, "tension_direction": "axis"}}, "tension_direction has no effect"),
+        ({"beam": {"curvature": 0.1, "sagitta_length": 1.0}}, "sagitta_length has no effect"),
+        ({"impact": {"velocity": 1.0, "angular_arm": 1.0}}, "angular_arm has no effect"),
+        ({"impact": {"velocity": 1.0, "gravity_angle": 1.0}}, "gravity_angle has no effect"),
+        ({"impact": {"velocity": 1.0, "amplitude": 0.01, "frequency": 5.0}}, "velocity = 1.0 and impact.amplitude"),
+        ({"impact": {"amplitude": 0.01}}, "impact.frequency, Hz, is required"),
+        ({"impact": {"velocity": 1.0, "frequency": 5.0}}, "frequency has no effect without impact.amplitude"),
+        ({"wall": {"clearance": 0.01}}, "wall.clearance has no effect on a free beam"),
+        ({"impact": {"velocity": 1.0, "gravity": 1.0, "acceleration": 1.0}}, "acceleration = 1.0 and impact.gravity"),
+        ({"wall": {"curvature": 0.002}}, "wall.curvature must be less"),
+        ({"wall": {"damping": 1.0}}, "wall.damping has no effect on a rigid wall"),
+        ({"wall": {"stiffness": 1e6, "damping": 1.0, "damping_ratio": 0.1}}, "say the same"),
+        ({"wall": {"stiffness": 1e6, "damping_ratio": 0.1, "from": 1.0, "to": 1.0}}, "nothing at a stop"),
+        ({"wall": {"from": 16.0}}, "wall.from must lie on the beam"),
+        ({"beam": {"curvature": 0.1, "ends": ["free", "glued"]}}, "beam.ends must be one of .*'glued'"),
+        ({"beam": {"curvature": 0.1, "ends": "hinged"}, "impact": {"angular_speed": 1.0}}, "needs one hinge"),
+        ({"impact": {"drop_height": 1.0, "gravity": 0.0}}, "drop_height = 1.0 needs gravity towards the wall"),
+    ],
+)
+def test_what_clashes_is_named(tables, message):
+    with pytest.raises(InputError, match=message):
+        case(**tables)
+
+
+@pytest.mark.parametrize(
+    ("ends", "share"),
+    [("free", 1.0), ("hinged", 1.0), (["clamped", "free"], 0.25), (["free", "hinged"], 0.0), ("clamped", 4.0),
+     (["hinged", "clamped"], (4.493409458 / math.pi) ** 2)],
+)  # fmt: skip
+def test_a_beam_buckles_under_the_critical_load_of_its_ends(ends, share):
+    bow = {"curvature": 0.002, "ends": ends}
+    limit = share * math.pi**2 * case(bow).impact.bending_stiffness / 30.0**2
+    case(bow | {"axial_force": -0.999 * limit})
+    with pytest.raises(InputError, match="axial_force must not press with more than"):
+        case(bow | {"axial_force": -1.001 * limit - 1.0})
+
+
+def test_shipped_cases_are_bowed_beams_that_spread_and_a_rail_is_its_catalogue_entry():
+    shipped = {name: load_case(CASES / f"{name}.toml") for name in ("drill_pipe", "ruler", "glass_fibre_rod", "rail")}
+    for found in shipped.values():
+        assert 0.0 < found.impact.kappa_over_nu < 1.0 and found.end_time < 0.03 * found.impact.slow_time_scale
+    rail = shipped["rail"].section
+    assert isinstance(rail, General) and rail.mass_per_length == pytest.approx(60.21, rel=1e-3)
+
+
+@pytest.mark.parametrize("kind", ["pipe", "round_bar", "rectangle", "general"])
+def test_a_new_case_can_be_used_once_its_damping_is_stated(kind, tmp_path):
+    from bent_beam.new_case import new_case
+
+    file = tmp_path / "mine.toml"
+    file.write_text(new_case(kind))
+    with pytest.raises(InputError, match=r"beam\.damping_ratio .*0\.0002 bare steel, 0\.002 as held"):
+        load_case(file)
+    file.write_text(new_case(kind, 0.01))
+    assert load_case(file).section is not None and load_case(file).impact.damping > 0.0
+
+
+def test_an_amplitude_at_a_frequency_is_a_velocity_and_what_is_laid_over_a_case_replaces_what_says_the_same():
+    tables = {"beam": {"length": 2.0, "bending_stiffness": 1.0, "mass_per_length": 1.0, "sagitta": 0.01,
+                       "sagitta_length": 1.0, "loss_factor": 0.1, "loss_frequency": 5.0},
+              "impact": {"amplitude": 0.002, "frequency": 40.0}}  # fmt: skip
+    assert case_from_tables(tables).impact.velocity == pytest.approx(2.0 * math.pi * 40.0 * 0.002)
+    lay_over(tables, ["beam.curvature=0.3", "beam.damping=0.5", "impact.velocity=3"])
+    impact = case_from_tables(tables).impact
+    assert (impact.curvature, impact.damping, impact.velocity) == (0.3, 0.5, 3.0)
+
+
+SAME = [("beam.curvature=0.3", "beam.dogleg=1"), ("beam.ends=free", "beam=1"),
+        ("impact.velocity=3", "impact . velocity=3"), ("run.end_time=1", "run.duration=1"),
+        ("section.inner_diameter=1", "section.wall_thickness=1")]  # fmt: skip
+
+
+@pytest.mark.parametrize("first, second", SAME)
+def test_two_settings_that_say_the_same_are_refused(first: str, second: str) -> None:
+    with pytest.raises(InputError, match=re.escape(first.partition("=")[0])):
+        lay_over({}, [first, second])
+
+
 BEAM = dict(bending_stiffness=1.0, mass_per_length=1.0, length=50.0, curvature=0.0125)
 GOOD = {"beam": BEAM, "impact": {"velocity": 20.0}}
 
@@ -20,13 +248,13 @@ def test_every_case_file_loads_and_the_thesis_sweep_is_complete():
 
 
 def test_assignments_are_laid_over_and_a_mistake_for_one_path_is_found_with_another():
-    case = load_case(
+    found = load_case(
         CASES / "thesis_K10.toml",
         ["mesh.kind=graded", "mesh.element_length=2.5e-3", "mesh.growth=1.25", "hermite.contact.kind=node"],
     )
-    assert case.mesh == GradedMesh(element_length=2.5e-3, growth=1.25)
-    assert case.tables == {"hermite": {"contact": {"kind": "node"}}}
-    assert case.method("hermite").mesh == case.mesh and case_from_tables(GOOD).method("hermite").mesh is None
+    assert found.mesh == GradedMesh(element_length=2.5e-3, growth=1.25)
+    assert found.tables == {"hermite": {"contact": {"kind": "node"}}}
+    assert found.method("hermite").mesh == found.mesh and case_from_tables(GOOD).method("hermite").mesh is None
     mistaken = case_from_tables({**GOOD, "exudyn": {"contact": {"kind": "rigit"}}})
     with pytest.raises(InputError, match="rigit"):
         mistaken.method("hermite")

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from called import answered, command, refused
+from here import CASES
 from histories import pushed_until
 
 from bent_beam import ImpactHistory, SimulationError
@@ -15,7 +16,6 @@ from comparison.command_line.app import run
 from hermite_fe import HermiteFE
 from self_similar_fe import SelfSimilarFE
 
-CASES = Path(__file__).parents[2] / "cases"
 K10 = str(CASES / "thesis_K10.toml")
 
 

@@ -3,9 +3,9 @@
 import json
 from dataclasses import dataclass, replace
 from itertools import product
-from pathlib import Path
 
 import pytest
+from here import CASES
 from strangers import Stranger
 
 from bent_beam import ImpactHistory, InputError
@@ -182,7 +182,7 @@ def test_a_wall_that_gives_way_has_its_largest_force_in_the_row():
     assert row.peak_force.theory == pytest.approx(3.155, rel=1e-3)
 
 
-LISTS = Path(__file__).resolve().parents[2] / "cases" / "methods"
+LISTS = CASES / "methods"
 
 
 @pytest.mark.parametrize("file", sorted(LISTS.glob("*.toml")), ids=lambda file: file.stem)

@@ -12,7 +12,8 @@ from functools import cache
 
 import pytest
 from called import answered
-from markdown_tables import ROOT, cells, lines_after, stated
+from here import ROOT
+from markdown_tables import cells, lines_after, stated
 
 from bent_beam import Impact
 from bent_beam.measure.whole_impact import whole_impact

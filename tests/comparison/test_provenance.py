@@ -2,13 +2,12 @@
 
 import json
 import re
-from pathlib import Path
 
 import pytest
+from here import ROOT
 
 from bent_beam import stored
 
-ROOT = Path(__file__).resolve().parents[2]
 ROOMS = ("comparison", "bent_beam_programs")
 STORED = [f for room in ROOMS for f in sorted((ROOT / room).rglob("*.json")) if "versions" in f.read_text()]
 MADE = re.compile(r"<!-- made by: (bentbeam|python -m) ([^>]*?) -->")

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 from called import answered, command
+from here import CASES, ROOT
 
 from bent_beam import method
 
-ROOT = Path(__file__).resolve().parents[2]
 PAGE = (ROOT / "docs" / "guide" / "add-method.md").read_text(encoding="utf-8")
 LABEL = "Finite differences, fine"
 
@@ -47,7 +47,7 @@ def test_match_holds_a_method_from_outside_against_theory() -> None:
 
 def test_simulate_takes_its_settings() -> None:
     words = ("--path", "differences", "--set", "differences.nodes=60", "--out", "mine.nc")
-    found = answered("simulate", ROOT / "cases" / "thesis_K10.toml", *words)
+    found = answered("simulate", CASES / "thesis_K10.toml", *words)
     assert Path("mine.nc").exists() and found["total_impulse"] is not None
 
 

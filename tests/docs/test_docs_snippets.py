@@ -1,9 +1,10 @@
-"""Every command and snippet of README and docs runs; the tutorial runs; the repository's papers are in order.
+"""Every command and snippet of README and docs runs, the tutorial and examples in docstrings too; links lead somewhere.
 
 A fence whose info line says "not run" (with the reason) or ``no-run`` is only read, "make verify" that it runs there.
 TOML with a file's name as its title is a case, which is read and written to the folder for the commands below it.
 """
 
+import doctest
 import re
 import shlex
 from collections.abc import Iterator
@@ -11,12 +12,16 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import pytest
+from here import CASES, ROOT
 
-from bent_beam.cases import load_case
+from bent_beam import Impact, ImpactHistory, load_case
+from bent_beam.measure.estimators import leading_order
 from comparison.command_line.app import run
+from comparison.matching import match
 from hermite_fe import HermiteFE
+from self_similar_fe import SelfSimilarFE
+from theory import contact_parameters, peak_moment, predict
 
-ROOT = Path(__file__).resolve().parents[2]
 GENERATED = re.compile(r"(?:^|/)(?:settings|api/\w+)\.md")  # by docs/tools/generated.py
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
 NOT_RUN = re.compile("not run|no-run")
@@ -53,7 +58,7 @@ def name_of(page: Path) -> str:
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """An empty working folder with the project's cases and a store of its own."""
-    (tmp_path / "cases").symlink_to(ROOT / "cases")
+    (tmp_path / "cases").symlink_to(CASES)
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("BENTBEAM_STORE", str(tmp_path / "store"))
     return tmp_path
@@ -152,3 +157,16 @@ def test_the_files_that_hold_the_facts_exist() -> None:
         for name in re.findall(r"`([\w/]+\.py)`", line.rpartition(" | ")[2]):
             room = name.rpartition("/")[0] or room
             assert (ROOT / "tests" / room / name.rpartition("/")[2]).is_file(), line
+
+
+HERMITE = pytest.param(HermiteFE, marks=pytest.mark.verify)
+NAMES = (Impact, ImpactHistory, load_case, match, HERMITE, leading_order, SelfSimilarFE, contact_parameters)
+
+
+@pytest.mark.parametrize("name", (*NAMES, peak_moment, predict), ids=lambda name: name.__name__)
+def test_the_example_of_a_name_gives_what_it_shows(name, monkeypatch):
+    """Of the ten that people start with."""
+    monkeypatch.chdir(ROOT)
+    found = doctest.DocTestFinder(recurse=False).find(name, name.__name__, globs={})
+    assert found and found[0].examples
+    assert doctest.DocTestRunner().run(found[0]).failed == 0

@@ -10,10 +10,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from here import ROOT
 
 from tests.chromium import ask, chromium, disquiet, needs_chromium, opened  # noqa: F401
 
-ROOT = Path(__file__).parents[2]
 BUILDERS = ("mkdocs", "quickjax", "mkdocs_jupyter", "mkdocstrings")
 NOT_PROSE = "pre, code, .highlight, .formula, script, style, .clipboard-copy-txt, .zeroclipboard-container"
 PROSE = f"""(() => {{ const body = document.querySelector('.md-content').cloneNode(true);

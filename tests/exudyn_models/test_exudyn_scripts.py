@@ -5,14 +5,14 @@ import itertools
 import re
 import runpy
 import sys
-from pathlib import Path
 
 import pytest
+from here import ROOT
 
 from exudyn_models.scripts import bent_beam_impact
 from theory import contact_parameters
 
-SCRIPTS = Path(__file__).resolve().parents[2] / "exudyn_models" / "scripts"
+SCRIPTS = ROOT / "exudyn_models" / "scripts"
 
 
 @pytest.fixture

@@ -5,11 +5,11 @@ import math
 import re
 from functools import partial
 from itertools import pairwise
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from here import ROOT
 from hermite_parts import ALL, DROP, FIRST_ORDER, GRAVITY, WITH_IMPACT_LAW, Make, ball, chain, oscillator
 
 from bent_beam import Impact, SimulationError
@@ -21,7 +21,7 @@ from hermite_fe.integrators import GeneralizedAlphaPenalty, MoreauJean, Nonsmoot
 from hermite_fe.run import Trajectory, integrate
 from hermite_fe.system import ContactRows, System
 
-GUIDE = Path(__file__).resolve().parents[2] / "docs/guide/add-integrator.md"
+GUIDE = ROOT / "docs/guide/add-integrator.md"
 PUSHED = [[1.0, 2.0], [0.5, -0.3]]  # load of the chain
 START = np.array([0.5, -0.2]), np.array([0.0, 1.0])
 

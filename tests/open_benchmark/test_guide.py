@@ -3,9 +3,9 @@
 import re
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
+from here import ROOT
 
 from bent_beam_programs.open_benchmark.adapter import chosen_adapters
 from bent_beam_programs.open_benchmark.campaign import campaign
@@ -13,7 +13,7 @@ from bent_beam_programs.open_benchmark.reading import load_result
 from bent_beam_programs.open_benchmark.running import Limits
 from bent_beam_programs.open_benchmark.score import score
 
-DOCS = Path(__file__).resolve().parents[2] / "docs"
+DOCS = ROOT / "docs"
 
 
 def snippet(name, page="guide/enter.md"):

@@ -7,11 +7,11 @@ import re
 import shutil
 import subprocess
 import tomllib
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from here import ROOT
 
 from bent_beam.cases import case_from_tables
 from bent_beam.impact import Impact
@@ -21,7 +21,6 @@ from comparison.bouncing import bounce
 from comparison.command_line.app import run
 from theory import predict as theory_predict
 
-ROOT = Path(__file__).parents[2]
 needs_node = pytest.mark.skipif(shutil.which("node") is None, reason="Node.js is not installed")
 
 

@@ -1,21 +1,15 @@
-"""One seed for a whole fuzz run, the same in every worker process, printed at its end so that it can be repeated."""
-
-import os
-import random
-from pathlib import Path
+"""The seed of a fuzz run is printed at its end so that it can be repeated; tests stand in folders of their own."""
 
 import pytest
+from here import FUZZ, ROOT, SEED
 from hypothesis.configuration import set_hypothesis_home_dir
 
-set_hypothesis_home_dir(Path(__file__).parents[2] / ".hypothesis")  # kept: what it makes of all modules takes seconds
-FUZZ = bool(os.environ.get("FUZZ"))
-if FUZZ:
-    os.environ.setdefault("FUZZ_SEED", str(random.SystemRandom().randrange(2**32)))
+set_hypothesis_home_dir(ROOT / ".hypothesis")  # kept: what it makes of all modules takes seconds
 
 
 def pytest_terminal_summary(terminalreporter):
     if FUZZ:
-        terminalreporter.write_line(f"fuzz seed: FUZZ_SEED={os.environ['FUZZ_SEED']}")
+        terminalreporter.write_line(f"fuzz seed: FUZZ_SEED={SEED}")
 
 
 @pytest.fixture(autouse=True)

@@ -13,6 +13,7 @@ from typing import ClassVar
 
 import pytest
 from called import MAIN, answered, command, refused, started
+from here import CASES
 
 from bent_beam import Impact
 from bent_beam import method as methods
@@ -211,12 +212,9 @@ SIZES = (
 ).split()
 
 
-PIPE = Path(__file__).parents[2] / "cases" / "drill_pipe.toml"
-
-
 @pytest.mark.parametrize("size", SIZES)
 def test_sizes_that_cannot_be_calculated_with_are_refused_by_name(size):
-    assert size.partition(".")[0] in refused("predict", PIPE, "--theory-only", "--set", size)
+    assert size.partition(".")[0] in refused("predict", CASES / "drill_pipe.toml", "--theory-only", "--set", size)
 
 
 @pytest.mark.parametrize(("leave", "failed"), [(lambda: os._exit(0), 1), (lambda: os.chdir("/"), 0)])

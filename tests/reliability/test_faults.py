@@ -6,19 +6,16 @@ import os
 import random
 import signal
 import time
-from pathlib import Path
 
 import pytest
 from called import command, refused, started
+from here import CASES, FUZZ, SEED
 from histories import ROD
 
 from bent_beam import SimulationError
 from bent_beam.files import write_atomically
 from comparison.store import RunStore
 from hermite_fe import HermiteFE
-
-FUZZ = bool(os.environ.get("FUZZ"))
-SEED = os.environ.get("FUZZ_SEED", "0")
 
 
 def match_on(path, *ratios):
@@ -179,5 +176,4 @@ def test_a_place_that_cannot_be_written_is_refused_before_the_run(out, monkeypat
     """A device or a pipe would be replaced by the file."""
     monkeypatch.setattr(HermiteFE, "simulate", lambda *a, **k: pytest.fail("it ran"))
     os.mkfifo("pipe")
-    case = Path(__file__).parents[2] / "cases" / "ruler.toml"
-    assert "out:" in refused("simulate", case, "--out", out, "--json", "--overwrite")
+    assert "out:" in refused("simulate", CASES / "ruler.toml", "--out", out, "--json", "--overwrite")

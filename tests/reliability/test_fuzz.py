@@ -3,7 +3,6 @@
 import dataclasses
 import json
 import math
-import os
 import signal
 import string
 import tempfile
@@ -11,6 +10,7 @@ from pathlib import Path
 from unittest import mock
 
 import called
+from here import FUZZ, SEED
 from hypothesis import given, seed, settings
 from hypothesis import strategies as st
 
@@ -19,14 +19,12 @@ import hermite_fe
 from bent_beam import ImpactHistory
 from theory import contact_parameters
 
-FUZZ = bool(os.environ.get("FUZZ"))
-SEED = int(os.environ.get("FUZZ_SEED", "5"))
 LIMIT = 120  # s an input; all of them are meant to take a second at most
 
 
 def fuzz(quick, long):
     """``quick`` inputs, always the same ones, in `make test`; ``long`` with the run's seed in `make fuzz`."""
-    return lambda test: settings(max_examples=long if FUZZ else quick)(seed(SEED)(test))
+    return lambda test: settings(max_examples=long if FUZZ else quick)(seed(int(SEED))(test))
 
 
 class Hang(BaseException):

@@ -1,17 +1,16 @@
 """A result that is not to be trusted says so where the number is, in the JSON's `warnings`; long runs stay exact."""
 
-import os
 import resource
 
 import pytest
 from called import CASE, answered
+from here import FUZZ
 
 import hermite_fe
 from bent_beam import Impact
 from bent_beam.meshes import UniformMesh
 from hermite_fe.integrators import MoreauJean
 
-FUZZ = bool(os.environ.get("FUZZ"))
 RUN = """[run]
 duration = 0.1
 [hermite.integrator]

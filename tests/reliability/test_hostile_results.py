@@ -10,6 +10,7 @@ import zipfile
 import numpy as np
 import pytest
 from called import started
+from here import FUZZ
 
 from bent_beam_programs.open_benchmark.adapter import Adapter
 from bent_beam_programs.open_benchmark.campaign import Row
@@ -19,7 +20,6 @@ from bent_beam_programs.open_benchmark.reading import load_result
 from bent_beam_programs.open_benchmark.result import ResultError
 from theory import contact_parameters
 
-FUZZ = bool(os.environ.get("FUZZ"))
 SECONDS, BYTES = 10.0, 1_000_000_000
 TAU = np.linspace(0.0, 0.1, 400)
 EXACT = contact_parameters(0.5)

@@ -11,10 +11,9 @@ from pathlib import Path
 import h5py
 import pytest
 from called import CASE, started
+from here import FUZZ, SEED
 from PIL import Image
 
-FUZZ = bool(os.environ.get("FUZZ"))
-SEED = os.environ.get("FUZZ_SEED", "0")
 INTERRUPTS = 2 if FUZZ else 1
 MAIN = """
 from pathlib import Path

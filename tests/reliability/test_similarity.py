@@ -2,11 +2,11 @@
 
 import functools
 import math
-import os
 import random
 
 import numpy as np
 import pytest
+from here import FUZZ, SEED
 
 import exudyn_models
 import hermite_fe
@@ -22,7 +22,6 @@ from self_similar_fe.mesh import ExpandingMesh
 from self_similar_fe.run import simulate_expanding
 from theory import predict
 
-FUZZ = bool(os.environ.get("FUZZ"))
 TWINS = [
     (1e-12, 1e12, 1e6),
     (1e12, 1e-12, 1e6),
@@ -32,7 +31,7 @@ TWINS = [
     (1.0, 1e-12, 1e-3),
 ]
 if FUZZ:
-    RANDOM = random.Random(os.environ.get("FUZZ_SEED", "0"))
+    RANDOM = random.Random(SEED)
     POWERS = ((-12.0, 12.0), (-12.0, 12.0), (-9.0, 6.0))
     TWINS += [tuple(10.0 ** RANDOM.uniform(*limits) for limits in POWERS) for _ in range(6)]
 LOADS = dict(epsilon_alpha=0.3, epsilon_psi=-0.02, epsilon_chi=0.01)

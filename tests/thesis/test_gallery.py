@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from here import ROOT
 
 from bent_beam import Impact, ImpactHistory
 from bent_beam_programs.thesis import gallery
@@ -23,7 +24,7 @@ from hermite_fe import HermiteFE
 from self_similar_fe import SelfSimilarFE
 from theory import contact_parameters, kernel
 
-DOCS = Path(__file__).parents[2] / "docs"
+DOCS = ROOT / "docs"
 LAST = {"fig-2": 18, "fig-3": 36, "fig-A": 3, "table-3": 4}  # of the thesis's figures and tables
 PAIRS = ("fig-2.7", "fig-2.12", "fig-2.16")  # drawn as a and b
 OTHERS = "filter counts uniform fine conditioning signorini coupling masses a0-17"

@@ -1,9 +1,9 @@
 """The page of printed numbers: each is in the class that its cells ask for, and is what is computed."""
 
 from collections.abc import Callable, Iterator
-from pathlib import Path
 
 import pytest
+from here import ROOT
 from markdown_tables import stated
 
 from bent_beam_programs.report.studies import stored_numbers
@@ -11,7 +11,7 @@ from bent_beam_programs.thesis.gallery.numbers import PRINTED, chapter2, scales
 from bent_beam_programs.thesis.verdicts import CLASSES, Printed, counts, summary, within_rounding
 from comparison.readable import readable
 
-PAGE = Path(__file__).parents[2] / "docs" / "thesis_numbers.md"
+PAGE = ROOT / "docs" / "thesis_numbers.md"
 
 
 def on_page() -> list[list[str]]:
