@@ -9,8 +9,6 @@ from typing import Any
 
 from comparison.command_line.app import run
 
-__all__ = ["CASE", "MAIN", "answered", "command", "refused", "started"]
-
 MAIN = "from comparison.command_line.app import main; main()"
 CASE = """[beam]
 bending_stiffness = 1.0

@@ -7,8 +7,6 @@ import numpy as np
 
 from bent_beam import Impact, ImpactHistory
 
-__all__ = ["ROD", "history_of", "pushed_until", "rod"]
-
 # A steel rod, Ø 20 mm × 1 m with a sagitta of 10 mm, as a case file.
 ROD = """title = "A rod"
 [section]

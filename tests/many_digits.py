@@ -4,8 +4,6 @@ from collections.abc import Callable
 
 import mpmath as mp
 
-__all__ = ["CLOSED", "closed_form", "phi_pair", "row", "wave"]
-
 PI = mp.pi
 with mp.workdps(130):
     ROOT = mp.sqrt(2 * mp.pi)

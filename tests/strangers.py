@@ -1,4 +1,4 @@
-"""A method of somebody else's. It imports nothing that is installed: what it imports is looked up for every run."""
+"""Methods of somebody else's. The first imports nothing installed: what it imports is looked up for every run."""
 
 import time
 from dataclasses import dataclass
@@ -6,8 +6,6 @@ from typing import ClassVar
 
 from bent_beam import SimulationError
 from self_similar_fe import SelfSimilarFE
-
-__all__ = ["Stranger"]
 
 
 @dataclass(frozen=True)
@@ -31,3 +29,21 @@ class Stranger:
                 time.sleep(0.01)
                 progress(0.0)
         return SelfSimilarFE(refine=0.5).simulate(impact, end_time=end_time, save=save, progress=progress)
+
+
+@dataclass(frozen=True)
+class Unlabelled:
+    """Without parts, answers nothing, and is no method for want of a label."""
+
+    path: ClassVar[str] = "theirs"
+
+    def refuses(self, impact):
+        return "axial_force is not modelled" if impact.axial_force else None
+
+    def simulate(self, impact, **how):
+        return None
+
+
+@dataclass(frozen=True)
+class Plain(Unlabelled):
+    label: str = "theirs"

@@ -78,7 +78,6 @@ REFUSED = [
     (lambda: HermiteFE(integrator=MoreauJean()).simulate(SPRINGS, end_time=1.0), "integrator.kind"),
     (lambda: HermiteFE(contact=NodeContact()).simulate(SPRINGS, end_time=1.0), "contact has no effect"),
     (lambda: HermiteFE(integrator=Midpoint()).simulate(SHORT, end_time=1.0), "integrator.kind"),
-    (lambda: Impact(1.0, 1.0, 1.0, 0.5, 1.0, wall_clearance=0.01), "wall_clearance has no effect on a free beam"),
     # shear
     (lambda: simulate(LOSSY), "hysteretic_loss" + WAY),
     (lambda: simulate(SHEARED, contact=MiddleContact()), r"contact\.kind" + WAY),

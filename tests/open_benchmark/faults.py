@@ -7,9 +7,8 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
-from foreign import solve
 
-__all__ = ["FAULTS", "drawn"]
+from tests.open_benchmark.foreign import solve
 
 Fields = dict[str, Any]
 Rng = np.random.Generator

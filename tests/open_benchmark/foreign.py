@@ -12,8 +12,6 @@ import numpy as np
 from scipy.linalg import cho_factor, cho_solve, cholesky, solve_triangular
 from scipy.optimize import nnls
 
-__all__ = ["solve"]
-
 
 def solve(
     kappa=0.5, *, size=0.02, half=3.0, steps=400, theta=1.0, stiffness=1.0, mass=1.0, speed=1.0, shape=1.0, shift=0.0,

@@ -29,8 +29,6 @@ from hermite_fe.integrators import (
 from hermite_fe.run import Trajectory, integrate
 from hermite_fe.system import ContactRows, System
 
-__all__ = ["INTEGRATORS", "RUNGS", "cell"]
-
 Array = NDArray[np.float64]
 Scheme = Callable[[float], Integrator]  # of a time step
 Found = tuple[float, float]  # error of the impulse, energy at the end over that at the start

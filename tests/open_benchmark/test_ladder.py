@@ -1,13 +1,10 @@
 """This project's integrators against the closed forms of the ladder."""
 
 import re
-import sys
-from pathlib import Path
 
 import pytest
 
-sys.path.insert(0, str(Path(__file__).parent))  # tests are imported one by one
-from ladder import INTEGRATORS, RUNGS, cell
+from tests.open_benchmark.ladder import INTEGRATORS, RUNGS, cell
 
 QUICK = ("Moreau–Jean θ = ½", "Signorini, new position")
 NAMES = [pytest.param(name, marks=() if name in QUICK else pytest.mark.verify) for name in INTEGRATORS]

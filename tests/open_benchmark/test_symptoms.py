@@ -5,20 +5,17 @@ Faults are drawn anew in each run; the seed is printed, and BENTBEAM_SEED repeat
 
 import os
 import secrets
-import sys
-from pathlib import Path
 
 import pytest
 
 from bent_beam_programs.open_benchmark.result import result_from_fields
 from bent_beam_programs.open_benchmark.score import score
-
-sys.path.insert(0, str(Path(__file__).parent))  # tests are imported one by one
-from faults import FAULTS, drawn
-from foreign import solve
+from tests.open_benchmark.faults import FAULTS, drawn
+from tests.open_benchmark.foreign import solve
 
 SEED = int(os.environ.get("BENTBEAM_SEED") or secrets.randbelow(2**31))
 QUICK = ("stiffness", "mass", "speed", "wall_curved_away", "soft_springs", "pulling_springs", "lost_point", "forces")
+QUICK += ("other_problem",)
 
 
 def looked_at(name, *seed):

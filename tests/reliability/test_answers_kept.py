@@ -6,14 +6,13 @@ import json
 import os
 import subprocess
 import sys
-from dataclasses import dataclass
 from pathlib import Path
 from types import SimpleNamespace
-from typing import ClassVar
 
 import pytest
 from called import MAIN, answered, command, refused, started
 from here import CASES
+from strangers import Plain, Unlabelled
 
 from bent_beam import Impact
 from bent_beam import method as methods
@@ -29,24 +28,6 @@ from comparison.rows import MatchQuestion, first_order_epsilon
 from comparison.store import RunStore, code_of, source_of
 from hermite_fe import HermiteFE
 from hermite_fe.contacts import NodeContact
-
-
-@dataclass(frozen=True)
-class Unlabelled:
-    """Somebody's method that answers nothing."""
-
-    path: ClassVar[str] = "theirs"
-
-    def refuses(self, impact):
-        return None
-
-    def simulate(self, impact, **how):
-        return None
-
-
-@dataclass(frozen=True)
-class Theirs(Unlabelled):
-    label: str = "theirs"
 
 
 def ended():
@@ -85,7 +66,7 @@ def test_a_full_disk_under_out_costs_the_files_and_no_answer(monkeypatch):
         raise OSError(28, "No space left on device", "out/match.json")
 
     monkeypatch.setattr("comparison.figures.matching.write_match", full)
-    install(monkeypatch, lambda: Theirs)
+    install(monkeypatch, lambda: Plain)
     code, out, err = command(*MATCH, "--out", "out", "--json")
     assert code == 2 and len(json.loads(out)["rows"]) == 1 and "No space left" in err
 

@@ -112,9 +112,7 @@ def test_every_item_has_data(name: str) -> None:
     assert len(cells(name)) >= least.get(name, 3)
 
 
-def test_unknown_ids_and_formats_are_refused_and_a_failing_item_leaves_the_others(tmp_path, monkeypatch):
-    with pytest.raises(ValueError, match=r"fig-9\.9"):
-        draw_all(["fig-9.9"], tmp_path)
+def test_unknown_formats_are_refused_and_a_failing_item_leaves_the_others(tmp_path, monkeypatch):
     with pytest.raises(ValueError, match="format"):
         draw_all(["fig-2.3"], tmp_path, formats=("bmp",))
 

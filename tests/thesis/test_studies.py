@@ -1,13 +1,14 @@
 """Studies: the theory they are compared with, what their runs show on small cases, the thesis's filter."""
 
 import json
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 import pytest
 from called import answered, refused
+from strangers import Plain
 
 from bent_beam.cases import Case
 from bent_beam.impact import Impact
@@ -182,26 +183,17 @@ def test_taking_every_step_by_itself_gives_the_same_run_and_its_impulse() -> Non
     assert 2.0 * float(steps.reaction @ np.diff(steps.time, prepend=0.0)) == pytest.approx(impulse, rel=1e-12)
 
 
-@dataclass(frozen=True)
-class Plain:  # a method of somebody else's without any parts
-    path: ClassVar[str] = "plain"
-    label: str = "Plain"
-
-    def refuses(self, impact: Impact) -> str | None:
-        return "axial_force is not modelled" if impact.axial_force else None
-
-
 USES = {  # study: methods it can use, of hermite, self_similar, exudyn and one without parts
     "time-step": {"hermite", "exudyn"},
     "mesh": {"hermite", "self_similar", "exudyn"},
     "damping": {"hermite", "exudyn"},
     "restitution": {"hermite"},
     "contact-point": {"hermite", "exudyn"},
-    "far-field": {"hermite", "self_similar", "exudyn", "plain"},
+    "far-field": {"hermite", "self_similar", "exudyn", "theirs"},
     "penalty": {"exudyn"},
     "amplitude": {"exudyn"},
     "friction": set(),  # until it is given a contact with friction
-    "first-order-case": {"hermite", "self_similar", "exudyn", "plain"},
+    "first-order-case": {"hermite", "self_similar", "exudyn", "theirs"},
     "conditioning": set(),
 }
 
