@@ -7,13 +7,7 @@ import numpy as np
 import pytest
 from called import answered, command, refused
 
-
-def result(file, **changes):
-    """The exact answer to point-2: r₀ = 1."""
-    tau = np.linspace(0.0, 0.1, 300)
-    fields = {"outcome": "completed", "problem": "point-2", "metadata": "{}"}
-    np.savez(file, **{**fields, "tau": tau, "J": 4 * np.sqrt(2 / np.pi) * np.sqrt(tau), "Jm": 0 * tau, **changes})
-    return file
+from tests.open_benchmark.exact import written
 
 
 def test_a_problem_is_written_in_the_language_of_its_file_and_not_over_what_is_there(tmp_path):
@@ -25,7 +19,7 @@ def test_a_problem_is_written_in_the_language_of_its_file_and_not_over_what_is_t
 
 
 def test_score_prints_one_document_and_a_list_of_several(tmp_path):
-    files = [str(result(tmp_path / f"{k}.npz", metadata=json.dumps({"seconds": float(k)}))) for k in (3, 1, 2)]
+    files = [str(written(tmp_path, 2.0, f"{k}.npz", metadata=json.dumps({"seconds": float(k)}))) for k in (3, 1, 2)]
     document = answered("score", files[0])
     assert document["outcome"] == "completed" and document["diagnosis"] == []
     assert [one["name"] for one in document["symptoms"]] == ["too_smooth"], "no solver is that smooth"
@@ -37,7 +31,7 @@ def test_score_prints_one_document_and_a_list_of_several(tmp_path):
 
 
 def test_a_result_that_cannot_be_read_is_exit_code_2_and_no_score(tmp_path):
-    bad = result(tmp_path / "bad.npz", J=np.full(300, np.nan))
+    bad = written(tmp_path, 2.0, "bad.npz", J=np.full(400, np.nan))
     code, out, err = command("score", bad, "--json")
     assert code == 2 and err.count("\n") == 1 and "J[0] is nan" in err
     document = json.loads(out)
@@ -45,7 +39,7 @@ def test_a_result_that_cannot_be_read_is_exit_code_2_and_no_score(tmp_path):
 
 
 def test_benchmark_writes_a_page_for_an_adapter_of_ones_own(tmp_path):
-    exact, file, out = result(tmp_path / "exact.npz"), tmp_path / "mine.py", tmp_path / "out"
+    exact, file, out = written(tmp_path, 2.0, "exact.npz"), tmp_path / "mine.py", tmp_path / "out"
     file.write_text(f"import shutil, sys; shutil.copy({str(exact)!r}, sys.argv[2])")
     document = answered("benchmark", "--adapter", file, "--problem", "point-2", "--out", out, "--seconds", 9)
     # besides the problem that is asked, one like it is drawn, which a copied answer does not fit

@@ -1,6 +1,5 @@
 """What a result file may hold, and what a score says of it."""
 
-import json
 from contextlib import nullcontext
 from dataclasses import replace
 
@@ -17,31 +16,10 @@ from bent_beam_programs.open_benchmark.reading import load_result
 from bent_beam_programs.open_benchmark.references import reference
 from bent_beam_programs.open_benchmark.result import FEWEST, Result, ResultError, result_from_fields
 from bent_beam_programs.open_benchmark.score import resolution_ignored, score
+from tests.open_benchmark.exact import SIDE, TAU, exact_fields, written
 from theory import contact_parameters
 
-SIDE = np.sqrt(2.0 / np.pi)
-TAU = np.linspace(0.0, 0.1, 400)
 STARTED = '{"outcome": "completed", "problem": "point-2", "metadata": '
-
-
-def exact_fields(kappa=0.5):
-    """The theory's own J and Jm: what a perfect code hands in."""
-    found = contact_parameters(kappa)
-    return {
-        "outcome": "completed",
-        "problem": f"leading-{kappa:g}",
-        "metadata": json.dumps({"tool": "exact"}),
-        "tau": TAU,
-        "J": 4.0 * SIDE * found.r0 * np.sqrt(TAU),
-        "Jm": SIDE * found.r0 * found.lambda0 * TAU,
-    }
-
-
-def written(tmp_path, **changes):
-    fields = {**exact_fields(), **changes}
-    file = tmp_path / "result.npz"
-    np.savez(file, **{name: value for name, value in fields.items() if value is not None})
-    return file
 
 
 def scored(name, **fields):
@@ -58,7 +36,7 @@ def refusal(file):
 
 @pytest.mark.parametrize("kappa", [0.05, 0.37, 0.8])
 def test_the_exact_impulse_and_moment_give_lambda0_and_r0_to_rounding(tmp_path, kappa):
-    found = score(load_result(written(tmp_path, **exact_fields(kappa))))
+    found = score(load_result(written(tmp_path, kappa)))
     assert found.outcome == "completed"
     assert found.error("lambda0") == pytest.approx(0.0, abs=1e-9) and found.error("r0") == pytest.approx(0.0, abs=1e-9)
 

@@ -18,21 +18,13 @@ from bent_beam_programs.open_benchmark.judgement import Score
 from bent_beam_programs.open_benchmark.page import write_page
 from bent_beam_programs.open_benchmark.reading import load_result
 from bent_beam_programs.open_benchmark.result import ResultError
-from theory import contact_parameters
+from tests.open_benchmark.exact import exact_fields
 
 SECONDS, BYTES = 10.0, 1_000_000_000
-TAU = np.linspace(0.0, 0.1, 400)
-EXACT = contact_parameters(0.5)
-FIELDS = {
-    "tau": TAU,
-    "J": 4.0 * np.sqrt(2.0 / np.pi) * EXACT.r0 * np.sqrt(TAU),
-    "Jm": np.sqrt(2.0 / np.pi) * EXACT.r0 * EXACT.lambda0 * TAU,
-}
+FIELDS = exact_fields()
 WORDS = {"outcome": "completed", "problem": "leading-0.5", "metadata": {"tool": "exact"}}
-
-
 GOOD = "tau,J,Jm\n" + "".join(
-    ",".join(map(repr, row)) + "\n" for row in np.column_stack(list(FIELDS.values())).tolist()
+    ",".join(map(repr, row)) + "\n" for row in np.column_stack([FIELDS[name] for name in ("tau", "J", "Jm")]).tolist()
 )
 
 
@@ -140,7 +132,7 @@ def test_a_hostile_result_is_refused_in_one_line_in_little_memory_and_time(answe
 def test_mutated_results_are_read_or_refused(tmp_path):
     """Bits turned and bytes cut in an NPZ, a table and its JSON."""
     numbers = random.Random("results")
-    np.savez(tmp_path / "good.npz", **FIELDS, outcome="completed", problem="leading-0.5", metadata="{}")
+    np.savez(tmp_path / "good.npz", **FIELDS)
     pair()(tmp_path)
     originals = {name: (tmp_path / name).read_bytes() for name in ("good.npz", "run.csv", "run.json")}
     for _ in range(300):
