@@ -7,6 +7,7 @@ import time
 from pathlib import Path
 
 import pytest
+from processes import ended, until
 
 from bent_beam.errors import InputError
 from bent_beam.measure.numbers import Number
@@ -38,21 +39,6 @@ def adapter(tmp_path, name, source):
 def ran(one, tmp_path, **limits):
     """One run of an adapter, whose result is ``kept/r.npz``."""
     return run_adapter(one, problem("point-2"), "coarse", tmp_path / "kept/r.npz", Limits(repeats=1, **limits))
-
-
-def until(holds):
-    end = time.monotonic() + 10.0
-    while not holds():
-        assert time.monotonic() < end
-        time.sleep(0.02)
-
-
-def over(number):
-    """Whether a process has ended; what nobody has waited for yet is over, too."""
-    try:
-        return Path(f"/proc/{number}/stat").read_text().rsplit(")", 1)[1].split()[0] == "Z"
-    except OSError:
-        return True
 
 
 FULL = (
@@ -92,7 +78,7 @@ def test_a_hang_is_a_timeout_and_takes_its_children_along(tmp_path):
     file.write_text(f"#!/bin/sh\nsetsid sleep 60 &\necho $! > {pid}\nsleep 60\n")
     file.chmod(0o755)
     assert ran(Adapter("slow", file), tmp_path, seconds=1.0).outcome == "timeout"
-    until(lambda: over(int(pid.read_text())))
+    until(lambda: ended(int(pid.read_text())))
 
 
 def test_a_killed_command_takes_its_adapter_and_its_folder_along(tmp_path):
@@ -111,7 +97,7 @@ run_adapter(slow, problem("point-2"), "coarse", Path("kept/r.npz"), Limits())
         time.sleep(0.02)
     command.kill()
     command.wait()
-    until(lambda: over(int(pids[0])) and not list(tmp_path.glob("kept/.run-*")))
+    until(lambda: ended(int(pids[0])) and not list(tmp_path.glob("kept/.run-*")))
 
 
 def test_what_a_full_disk_may_have_spoilt_and_what_has_another_helper_is_run_again(tmp_path):

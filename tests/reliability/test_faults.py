@@ -5,12 +5,12 @@ import math
 import os
 import random
 import signal
-import time
 
 import pytest
 from called import command, refused, started
 from here import CASES, FUZZ, SEED
 from histories import ROD
+from processes import until
 
 from bent_beam import SimulationError
 from bent_beam.files import write_atomically
@@ -43,8 +43,7 @@ def whole_runs_in(folder):
 
 def kill_when(happened, process):
     """Kill -9 as soon as ``happened()``, however fast the machine: its workers too, as a power cut would."""
-    while process.poll() is None and not happened():
-        time.sleep(0.005)
+    until(lambda: happened() or process.poll() is not None, 590.0, 0.005)
     if process.poll() is None:
         os.killpg(process.pid, signal.SIGKILL)
     process.communicate()

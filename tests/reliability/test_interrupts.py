@@ -13,6 +13,7 @@ import pytest
 from called import CASE, started
 from here import FUZZ, SEED
 from PIL import Image
+from processes import ended, until
 
 INTERRUPTS = 2 if FUZZ else 1
 MAIN = """
@@ -77,8 +78,7 @@ def at_work(program, folder, *words):
     """A program in ``folder``, at work from the moment ``ready`` is there."""
     (folder / "ready").unlink(missing_ok=True)
     process = started(*words, program=program, cwd=folder)
-    while not (folder / "ready").exists() and process.poll() is None:
-        time.sleep(0.002)
+    until(lambda: (folder / "ready").exists() or process.poll() is not None, 500.0, 0.002)
     return process
 
 
@@ -87,18 +87,6 @@ def command(name, folder, before=""):
     short = CASE.replace("length = 20.0", "length = 2.0\ndamping = 0.01")
     (folder / "case.toml").write_text(f"{short}[run]\nend_time = 0.01\n")
     return at_work(before + (FEW_ROWS if name == "report" else "") + MAIN, folder, *COMMANDS[name].split())
-
-
-def nothing_left_of(session):
-    """Whether no process of the session is alive, soon: a machine may have other work."""
-    for _ in range(1000):
-        try:
-            os.killpg(session, 0)
-        except ProcessLookupError:
-            return True
-        time.sleep(0.02)
-    os.killpg(session, signal.SIGKILL)
-    return False
 
 
 def written(folder):
@@ -131,7 +119,7 @@ def test_workers_end_with_the_command_and_say_nothing(after, tmp_path):
     os.killpg(process.pid, signal.SIGINT)
     out, err = process.communicate(timeout=30)
     assert process.returncode == 130 and out == "" and err.count("\n") == 1 and "goes on from there" in err, err
-    assert nothing_left_of(process.pid)
+    until(lambda: ended(process.pid), 20.0)
 
 
 @pytest.mark.parametrize("how", ["SIGTERM", *(pytest.param(s, marks=pytest.mark.verify) for s in ("SIGINT", "SIGHUP"))])
@@ -167,7 +155,7 @@ def test_an_interrupt_leaves_whole_files_and_says_how_to_go_on(name, tmp_path):
         if process.poll() is None:
             os.killpg(process.pid, how)
         out, err = process.communicate(timeout=60)
-        assert nothing_left_of(process.pid)
+        until(lambda: ended(process.pid), 20.0)  # noqa: B023
         if process.returncode == 130:
             stopped += 1
             said, *more = [line for line in err.splitlines() if "leave --jobs out" not in line]
@@ -191,4 +179,4 @@ def test_a_full_disk_is_told_by_the_name_of_the_file_and_takes_none_of_those_bef
     assert process.returncode in (2, 3) and "Traceback" not in err, err
     assert "out" in err and "File too large" in err, err
     assert not [file for file in written(tmp_path) if file.suffix == ".part" or not file.stat().st_size]
-    assert nothing_left_of(process.pid)
+    until(lambda: ended(process.pid), 20.0)
