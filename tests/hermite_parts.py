@@ -1,6 +1,7 @@
 """Integrators and small systems that tests of the Hermite path share."""
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
@@ -50,6 +51,13 @@ def chain(gap: float, load: list[list[float]]) -> System:
         load=load,
         contacts=ContactRows([[0]], [[1.0]], [gap]),
     )
+
+
+def account(sums: dict[str, Any]) -> Any:
+    """What is held and lost less the work of the loads: the energy at the start, in every step."""
+    losses = sum(value for name, value in sums.items() if name.startswith("loss_"))
+    held = sums["kinetic_energy"] + sums["strain_energy"] + sums.get("contact_energy", 0.0)
+    return held - sums["work_of_loads"] + losses
 
 
 def dense(bands: np.ndarray) -> np.ndarray:
