@@ -108,11 +108,11 @@ def draw(out: Path) -> list[Path]:
         return style.save(fig, out, "shear")
 
 
-def stopped_run(path: str, element: float) -> ImpactHistory:
-    """One point that is stopped, until 33 t_s, in units t_s = l_s = V₀ = 1."""
+def stopped_run(path: str, element: float, end: float = 33.0) -> ImpactHistory:
+    """One point that is stopped, in units t_s = l_s = V₀ = 1."""
     impact = Impact(1.0, 1.0, 2.0 * 45.0, STOPPED, 1.0, shear_stiffness=1.0, rotary_inertia=RATIO)
     method = method_from_tables(path, {"mesh": {"kind": "uniform", "element_length": element}} | STEPS[path](element))
-    return method.simulate(impact, end_time=33.0, save=np.geomspace(0.8, 33.0, 121))
+    return method.simulate(impact, end_time=end, save=np.geomspace(0.8, end, 121))
 
 
 def over_theory(history: ImpactHistory, name: str) -> FloatArray:

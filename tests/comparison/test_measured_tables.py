@@ -152,7 +152,7 @@ VALIDATION = {
 VALIDATED = lines_after("README.md", "## Validation")[2:]
 
 
-def test_the_table_is_the_same_on_both_pages_and_every_line_has_its_command():
+def test_the_validation_table_of_readme_and_site_is_the_same_and_every_line_has_its_command():
     assert lines_after("docs/index.md", "## Validation")[2:] == VALIDATED
     assert all(line[0].startswith(tuple(VALIDATION)) for line in VALIDATED)
 

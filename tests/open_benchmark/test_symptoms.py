@@ -5,6 +5,7 @@ Faults are drawn anew in each run; the seed is printed, and BENTBEAM_SEED repeat
 
 import os
 import secrets
+from typing import NamedTuple
 
 import pytest
 
@@ -18,28 +19,35 @@ QUICK = ("stiffness", "mass", "speed", "wall_curved_away", "soft_springs", "pull
 QUICK += ("other_problem",)
 
 
+class Look(NamedTuple):
+    """What is said of a faulty result."""
+
+    passes: bool
+    wrong_causes: set[str]
+    first_symptom: str
+
+
 def looked_at(name, *seed):
-    """Whether a faulty result passes, a wrong cause is named, and the first symptom is one that the fault has."""
     found = score(result_from_fields(drawn(name, *seed)))
     named = {one.name for one in found.diagnosis}
     wrong = max((abs(found.error(number) or 0.0) for number in found.measured), default=0.0)
     first = found.symptoms[0].name if found.symptoms else ""
-    return named == {"clean"} and wrong > 0.01, named - {"off", "clean", *FAULTS[name].causes.split()}, first
+    return Look(named == {"clean"} and wrong > 0.01, named - {"off", "clean", *FAULTS[name].causes.split()}, first)
 
 
 @pytest.mark.parametrize("name", QUICK)
 def test_a_fault_shows_in_its_own_symptom_and_no_other_cause_is_named(name):
-    clean, wrong, first = looked_at(name, 1001)
-    assert not clean and not wrong and first in FAULTS[name].first
+    look = looked_at(name, 1001)
+    assert not look.passes and not look.wrong_causes and look.first_symptom in FAULTS[name].first
 
 
 @pytest.mark.verify
 def test_of_40_fresh_faults_none_is_clean_or_has_a_wrong_cause_and_30_show_the_right_symptom_first():
     names = [*FAULTS, *list(FAULTS)[: 40 - len(FAULTS)]]
-    found = [(name, *looked_at(name, SEED, k)) for k, name in enumerate(names)]
-    right = [one for one in found if one[3] in FAULTS[one[0]].first]
+    found = [(name, looked_at(name, SEED, k)) for k, name in enumerate(names)]
+    right = [(name, look) for name, look in found if look.first_symptom in FAULTS[name].first]
     print(f"BENTBEAM_SEED={SEED}: {len(right)} of 40 right; others: {[one for one in found if one not in right]}")
-    assert len(found) == 40 and not [one for one in found if one[1] or one[2]]
+    assert len(found) == 40 and not [name for name, look in found if look.passes or look.wrong_causes]
     assert len(right) >= 30
 
 

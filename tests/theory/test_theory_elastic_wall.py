@@ -80,7 +80,7 @@ def test_a_wall_counts_as_rigid_once_impulse_and_force_are_within_2_percent(rati
         assert claimed < 1.2 * found["force"]
 
 
-def test_the_place_of_the_force_of_a_short_zone_is_the_last_to_come_back() -> None:
+def test_the_place_of_the_force_reaches_the_rigid_wall_s_later_than_force_and_impulse() -> None:
     """At one multiple of the wall's length, read off a longer zone; as κ/ν → 1 this takes ever longer."""
     found, short = settled(0.8, 0.25, 300.0, cells=40, steps=500), contact_parameters(0.95)
     claimed = short.lambda0 * math.sqrt(wall_prediction._rigid_from(0.95, 0.25, short.lambda0))
