@@ -1,11 +1,13 @@
-"""The study of the error bars draws what it says, counts what misses, and keeps it to be run again."""
+"""The studies of error bars, of methods and of whole beams: they draw what they say, count what misses, and keep it."""
 
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from benchmarks.coverage import coverage, draw, write_misses
+from benchmarks import beams
+from benchmarks.coverage import Point, coverage, draw, write_misses
+from bent_beam.cases import load_case
 from bent_beam.measure.numbers import Number
 from comparison.methods import methods_from_file
 from comparison.rows import MatchRow
@@ -51,3 +53,40 @@ def test_half_of_the_rows_are_about_loads_up_to_those_of_a_slow_beam_under_gravi
 def test_error_bars_hold_with_94_of_100_numbers_covered_and_none_two_bars_off(misses, holds):
     covered = [row(5e-4, 1e-3)] * (100 - len(misses))
     assert coverage([*covered, *(row(error, 1e-3) for error in misses)]).holds == holds
+
+
+# --- whole beams -----------------------------------------------------------------------------------------------------
+
+
+def beams_of(tmp_path, stratum, number=20):
+    random, file = np.random.default_rng(5), tmp_path / "drawn.toml"
+    found = []
+    for _ in range(number):
+        file.write_text(beams.draw(random, stratum))
+        found.append(load_case(file).impact)
+    return found
+
+
+def test_every_stratum_is_what_it_is_called(tmp_path):
+    found = {stratum: beams_of(tmp_path, stratum) for stratum in beams.STRATA}
+    assert all(one.damping for beam in found.values() for one in beam), "without damping there are bands, no bars"
+    assert {one.shear_stiffness is None for one in found["rigid"]} == {False, True}
+    assert all(one.wall_stiffness for one in found["wall"])
+    assert {one.wall_damping > 0.0 for one in found["wall"]} == {False, True}
+    assert all(one.supported or one.wall_in_part for one in found["support"])
+    assert all(one.acceleration or one.axial_force or one.wall_curvature for one in found["loads"])
+    for values in ([one.acceleration for one in found["loads"]], [one.axial_force for one in found["loads"]]):
+        assert min(values) < 0.0 < max(values) and 0.0 in values
+    assert max(one.damping for one in found["light"]) < np.median([one.damping for one in found["rigid"]])
+
+
+def test_a_number_beyond_its_bar_fails_its_stratum_and_its_beam_stays_as_a_case_file(tmp_path, monkeypatch):
+    def found(row, stratum, file):
+        return [Point(row, 0.5, stratum, "impulse", 0.06 if row == 1 else 0.01, 0.05)]
+
+    monkeypatch.setattr(beams, "run_all", lambda what, rows, jobs: [found(*row) for row in rows])
+    out = tmp_path / "out"
+    assert beams.main(["--rows", "20", "--seed", "1", "--out", str(out)]) == 1, "3 of 4 elastic walls are not 90 %"
+    assert [file.name for file in out.iterdir()] == ["beam-1.toml"]
+    monkeypatch.setattr(beams, "run_all", lambda what, rows, jobs: [found(20, *row[1:]) for row in rows])
+    assert beams.main(["--rows", "20", "--seed", "1", "--out", str(out)]) == 0
