@@ -44,6 +44,14 @@ def test_plain_exudyn_gives_the_impulse_of_theory_and_of_simulate(seed):
     assert found == pytest.approx(impulse_of_theory(kappa_over_nu), rel=1e-3)
 
 
+def test_a_load_in_si_units_presses_as_in_simulate():
+    """A third more velocity until the end."""
+    pressed = STEEL.replace(acceleration=1e3)
+    _, read = solved(pressed, mesh=UniformMesh(0.015))
+    history = exudyn_models.simulate(pressed, mesh=UniformMesh(0.015), save=20)
+    assert read["impulse"][-1, 0] == pytest.approx(history.array("total_impulse")[-1], rel=5e-3)
+
+
 def test_elements_are_equal_in_the_zone_and_longer_ahead_of_it():
     model = exudyn_models.build(SHORT)
     lengths = np.diff([model.mbs.GetNode(node)["referenceCoordinates"][0] for node in model.nodes])
