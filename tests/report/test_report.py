@@ -139,7 +139,7 @@ def test_questions_ask_every_method_the_same() -> None:
     asked = report_questions(methods_of(PATHS))
     each = {label: {(q.kappa_over_nu, q.first, q.refine) for q in asked if q.method.label == label} for label in LABELS}
     assert each["Hermite"] == each["Exudyn"] == each["Self-similar"]
-    assert (1 / 1600, None, 1.0) in each["Hermite"] and (0.5, (4, 0, 0, 0), 1.0) in each["Hermite"]
+    assert (1 / 100, None, 1.0) in each["Hermite"] and (0.5, (4, 0, 0, 0), 1.0) in each["Hermite"]
 
 
 @pytest.mark.parametrize(("off", "grade"), [(2e-4, "good"), (8e-4, "fair"), (2e-3, "poor"), (2e-2, "bad")])
