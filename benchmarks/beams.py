@@ -140,7 +140,8 @@ def main(words: Sequence[str] | None = None) -> int:
     rows = [(k, STRATA[k % len(STRATA)], asked.out / f"beam-{k}.toml") for k in range(asked.rows)]
     for _, stratum, file in rows:
         write_atomically(file, draw(random, stratum))
-    found = run_all(points_of, rows, jobs=asked.jobs)
+    shown = partial(print, end="\r", file=sys.stderr, flush=True)
+    found = run_all(points_of, rows, jobs=asked.jobs, progress=lambda done, _: shown(f"{done} of {len(rows)} beams"))
     lost = sum(not one for one in found) / len(rows)
     every = Coverage.of([p for one in found for p in one], len(rows), lost)
     print(f"all: {every}")

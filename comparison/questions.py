@@ -42,7 +42,8 @@ DRAWN, SEED = 5, 15  # runs of an ensemble at a time, without damping
 WEAK = 3e-5  # η/T*: with less a beam keeps waves that grid viscosity absorbs
 RESOLVES = 0.05  # times 1/√(t/T*): refinement of a whole beam's elements that has ten of them in √(ct)
 EARLIEST = 1e-5  # T*: before, those waves carry less than 0.1 ‰ of the impulse
-FINER_SOON, SOON, FINEST = 2.0, 0.05, 4.0  # times as many elements as for the whole impact in a run to 0.05 T*; at most
+OF_SHORT, SHORT = 2.0, 0.05  # times as many elements as for the whole impact, in runs up to this time, T*
+FINEST, SOON = 4.0, 0.0125  # … and up to so many before this one: what the first instants did is not resolved by fewer
 INSTANTS, OF_UNIT = 200, 2000  # saved: up to the time asked, evenly in √t; of a whole impact, a T*
 ERROR_BARS = {"drift": (), "quick": (COARSER,), "thorough": (COARSER, FINER)}
 """Resolutions of the companion runs that error bars come from, by name."""
@@ -96,8 +97,9 @@ class Question:
             return method
         finer = 1.0
         if self.until is not None and getattr(method, "mesh", None) is None:
-            share = SOON * self.impact.slow_time_scale / self.until
-            finer = min(max(1.0, FINER_SOON * share ** (1.0 / 3.0)), FINEST)
+            end = self.until / self.impact.slow_time_scale
+            finer = max(1.0, OF_SHORT * min(1.0, SHORT / end) ** (1.0 / 3.0))
+            finer = min(finer * max(1.0, SOON / end) ** 0.5, FINEST)
         return for_whole_beam(refined(method, finer) or method, self.impact)
 
     def companions(self) -> dict[str, tuple[Impact, Method]]:
