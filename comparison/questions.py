@@ -43,7 +43,7 @@ WEAK = 3e-5  # η/T*: with less a beam keeps waves that grid viscosity absorbs
 RESOLVES = 0.05  # times 1/√(t/T*): refinement of a whole beam's elements that has ten of them in √(ct)
 EARLIEST = 1e-5  # T*: before, those waves carry less than 0.1 ‰ of the impulse
 OF_SHORT, SHORT = 2.0, 0.05  # times as many elements as for the whole impact, in runs up to this time, T*
-FINEST, SOON = 4.0, 0.0125  # … and up to so many before this one: what the first instants did is not resolved by fewer
+FINEST, SOON = 4.0, 0.025  # … and up to so many before this one: what the first instants did is not resolved by fewer
 INSTANTS, OF_UNIT = 200, 2000  # saved: up to the time asked, evenly in √t; of a whole impact, a T*
 ERROR_BARS = {"drift": (), "quick": (COARSER,), "thorough": (COARSER, FINER)}
 """Resolutions of the companion runs that error bars come from, by name."""
