@@ -42,6 +42,15 @@ def test_a_run_keeps_its_momentum_and_a_falsified_impulse_energy_or_gap_shows_in
         assert worked.energy > 1e-2 and any("not accounted for" in line for line in worked.warnings)
 
 
+def test_the_second_moment_closes_in_other_units_too() -> None:
+    """Half of the beam is 3 m long, T* = 18 s; κ/ν and η/T* are those of the beam above."""
+    heavy = Impact(2.0, 8.0, 6.0, 0.5 / 3.0, 1.0 / 6.0, damping=0.18)
+    assert heavy.kappa_over_nu == pytest.approx(WHOLE.kappa_over_nu)
+    method = HermiteFE(mesh=UniformMesh(3.0 / 50)).for_whole_beam(heavy)
+    balance = balance_of(method.simulate(heavy, end_time=0.3 * 18.0, save=600))
+    assert balance.second_moment < 5e-4 and balance.momentum < 5e-4 and balance.warnings == []
+
+
 @pytest.mark.parametrize("damping", [1e-2, 1e-3])
 def test_impulses_in_the_middle_have_no_second_moment_to_be_off(damping: float) -> None:
     impact = Impact.whole_beam(1.25, relative_damping=damping)
