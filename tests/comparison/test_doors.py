@@ -108,7 +108,7 @@ def test_one_run_without_damping_has_no_number_of_the_whole_impact(tmp_path: Pat
 
 
 def test_of_two_runs_of_the_whole_beam_both_halves_are_compared_and_drawn() -> None:
-    time, x = np.array([0.0, 0.5, 1.0]), np.linspace(-1.0, 1.0, 5)
+    time, x = np.array([0.0, 1.0, 2.0]), np.linspace(-1.0, 1.0, 5)  # gaps are told over V₀t
     impulse = np.outer(time, [1.0, 0.0, 0.0, 0.0, 1.0])
     runs = [
         history_of(time, x, symmetry="full", impulse=impulse, gap=np.outer(time, gap)) for gap in (x - 1.0, x + 1.0)

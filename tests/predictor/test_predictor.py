@@ -247,12 +247,12 @@ def test_page_is_one_small_file_that_asks_for_nothing_and_is_written_once(tmp_pa
 
 
 def test_the_page_of_the_guide_is_what_the_command_writes() -> None:
-    """The words to the letter; the numbers but for rounding, which differs between machines."""
+    """The words to the letter; the numbers but for rounding, which a fit enlarges to 4e-9 between machines."""
     number = re.compile(r"-?\d+(?:\.\d+)?(?:e-?\d+)?")
     shipped, current = (ROOT / "docs" / "predictor.html").read_text(encoding="utf-8"), page()
     assert number.sub("#", shipped) == number.sub("#", current), "bentbeam predictor --out … --overwrite"
     old, new = ([float(v) for v in number.findall(text)] for text in (shipped, current))
-    assert old == pytest.approx(new, rel=1e-6, abs=1e-10)
+    assert old == pytest.approx(new, rel=1e-6, abs=1e-7)  # coefficients of fits of order one
 
 
 @needs_node
