@@ -112,6 +112,7 @@ def whole_numbers(made: Runs) -> dict[str, Number | Band]:
     known["restitution"] = {"saved_instants": reading["drift"]}
     known["push"] = {"saved_instants": reading["push_rise"]}
     known["last_contact"]["contacts"] = _shifted(made)
+    known["peak_moment"] = {"first_instants": FACTOR * max(reading["moment_left_out"] - reading["peak_moment"], 0.0)}
     found = dict(bands_of(made, names) if made.question.band else numbers_of(made, names, known))
     if not all(run.reading["left"] for run in made.every):
         found |= {name: Number() for name in FINAL}

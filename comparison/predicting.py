@@ -72,6 +72,7 @@ def instant_numbers(runs: Runs) -> dict[str, Number]:
     known["half_contact_length"]["element"] = reading["element"]
     if question.late and converges(question.impact):
         known["impulse"]["about_the_time"] = _crossings(runs)
+    known["peak_moment"]["first_instants"] = FACTOR * max(reading["moment_left_out"] - reading["peak_moment"], 0.0)
     if not question.late:
         impact = question.impact
         # a load, damping, or a wall that gives way may lift the zone rightly; else the scheme has thrown it off, as it

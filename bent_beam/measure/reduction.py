@@ -10,12 +10,13 @@ from numpy.typing import NDArray
 
 from bent_beam.history import ImpactHistory
 
-__all__ = ["PeakMoment", "WallPeaks", "hold_of", "peak_moment", "pull_of", "wall_peaks"]
+__all__ = ["PeakMoment", "WallPeaks", "hold_of", "moment_left_out", "peak_moment", "pull_of", "wall_peaks"]
 
 Array = NDArray[np.float64]
 CHUNK = 256  # saved instants at once
 OF_RUN, OF_BEAM = 0.02, 0.002  # see _first_resolved
 RESOLVED = 10.0  # elements that a bending wave must have passed before a moment is one of the beam, not of its mesh
+SMOOTH = 3.0  # elements within √(cη), c = √(EI/μ), from which on damping makes a start that elements follow within 3 %
 MAY_BE_HELD = 0.01  # of the run: while this lasts, a start may be held
 
 
@@ -111,15 +112,29 @@ def peak_moment(history: ImpactHistory, until: float | None = None) -> PeakMomen
     return best._replace(midspan=midspan)
 
 
+def moment_left_out(history: ImpactHistory, until: float | None = None) -> float:
+    """How large the moment, N m, may have been in the first instants that :func:`peak_moment` leaves out, of a damped
+    beam before a rigid wall: there it rises above what follows and falls within some η. What the mesh made of it, and
+    no more than V₀√(EIμ), the moment of a beam that is stopped at a point. 0 of other beams."""
+    impact = history.impact
+    if "largest_moment" not in history or not impact.damping or impact.shear_stiffness or impact.wall_stiffness:
+        return 0.0
+    count = int(np.searchsorted(history.time, math.inf if until is None else until * (1.0 + 1e-9), side="right"))
+    most = impact.velocity * math.sqrt(impact.bending_stiffness * impact.mass_per_length)
+    left_out = history.array("largest_moment", slice(1, _first_resolved(history, count)))
+    return min(float(left_out.max(initial=0.0)), most)
+
+
 def _first_resolved(history: ImpactHistory, count: int) -> int:
     """The first saved instant whose steps all lie behind the time in which a bending wave, √(EI/μ)t = x², passes
     :data:`RESOLVED` of the shortest elements. At most :data:`OF_RUN` of the time of the last of ``count`` is left out,
-    and :data:`OF_BEAM` of T*: a coarse mesh or few saved instants hide no maximum. With a hysteretic loss the moment
-    of the first instants is the beam's own."""
+    and :data:`OF_BEAM` of T*: a coarse mesh or few saved instants hide no maximum. With a hysteretic loss, and with
+    damping that is :data:`SMOOTH`, the moment of the first instants is the beam's own."""
     impact, time = history.impact, history.time
-    if impact.hysteretic_loss:
-        return 1
     element = float(np.diff(np.unique(history.positions(0))).min())
+    smooth = impact.wave_constant * impact.damping >= (SMOOTH * element) ** 2 and impact.shear_stiffness is None
+    if impact.hysteretic_loss or smooth:
+        return 1
     most = min(OF_RUN * float(time[count - 1]), OF_BEAM * impact.slow_time_scale)
     begin = min((RESOLVED * element) ** 2 / impact.wave_constant, most)
     first = min(int(np.searchsorted(time, begin)) + 1, count - 1)

@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 from bent_beam.free_flight import LOWEST_PERIOD, has_left, pushing
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
-from bent_beam.measure.reduction import peak_moment, wall_peaks
+from bent_beam.measure.reduction import moment_left_out, peak_moment, wall_peaks
 
 __all__ = ["SHORTEST_SEPARATION", "WINDOW", "Hit", "WholeImpact", "hits", "peak_times", "pushes", "whole_impact"]
 
@@ -48,7 +48,9 @@ class WholeImpact:
     until : end of the span that the largest moment and force are of.
     contacts : begin and end of each contact, separations shorter than the shortest ignored; the last ends at the last
         contact.
-    peak_moment_place : |x|/ℓ. translation, vibration, dissipated : shares of the initial energy and the work of the
+    peak_moment_place : |x|/ℓ. moment_left_out : what the moment may have been at first
+        (:func:`bent_beam.measure.reduction.moment_left_out`).
+    translation, vibration, dissipated : shares of the initial energy and the work of the
         loads, altogether one.
     peak_force : on the zone of a wall that gives way, over μℓV₀/T*, with its time and its mean |x|/ℓ; ``None`` of a
         rigid one. push : the largest impulse within :data:`WINDOW` T*, over μℓV₀; push_time : when the wall begins
@@ -67,6 +69,7 @@ class WholeImpact:
     peak_moment: float
     peak_moment_place: float
     peak_moment_time: float
+    moment_left_out: float
     midspan_moment: float
     translation: float
     vibration: float
@@ -136,6 +139,7 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
         peak_moment=peak.moment / moment,
         peak_moment_place=abs(peak.place) / impact.half_length,
         peak_moment_time=peak.time / unit,
+        moment_left_out=moment_left_out(history) / moment,
         midspan_moment=peak.midspan / moment,
         translation=translation,
         vibration=kept / supplied - translation,
