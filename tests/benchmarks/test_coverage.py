@@ -84,9 +84,9 @@ def test_a_number_beyond_its_bar_fails_its_stratum_and_its_beam_stays_as_a_case_
     def found(row, stratum, file):
         return [Point(row, 0.5, stratum, "impulse", 0.06 if row == 1 else 0.01, 0.05)]
 
-    monkeypatch.setattr(beams, "run_all", lambda what, rows, jobs: [found(*row) for row in rows])
+    monkeypatch.setattr(beams, "run_all", lambda what, rows, **_: [found(*row) for row in rows])
     out = tmp_path / "out"
     assert beams.main(["--rows", "20", "--seed", "1", "--out", str(out)]) == 1, "3 of 4 elastic walls are not 90 %"
     assert [file.name for file in out.iterdir()] == ["beam-1.toml"]
-    monkeypatch.setattr(beams, "run_all", lambda what, rows, jobs: [found(20, *row[1:]) for row in rows])
+    monkeypatch.setattr(beams, "run_all", lambda what, rows, **_: [found(20, *row[1:]) for row in rows])
     assert beams.main(["--rows", "20", "--seed", "1", "--out", str(out)]) == 0
