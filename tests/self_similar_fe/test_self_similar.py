@@ -38,7 +38,7 @@ def test_leading_order_to_a_few_hundred_thousandths(ratio, half):
 
 
 def test_the_slope_is_that_of_the_line_whose_distance_from_the_wall_is_the_gap(half):
-    for history in (half, simulate_expanding(Impact.dimensionless(0.5, epsilon_alpha=0.1), QUICK, end_time=0.1)):
+    for history in (half, simulate_expanding(Impact.dimensionless(0.5, epsilon_psi=0.1), QUICK, end_time=0.1)):
         bow = -np.gradient(history.array("gap", -1), history.positions(-1), edge_order=2)
         assert history.array("slope", -1) == pytest.approx(bow, abs=1e-3) and abs(bow).max() > 3.0
 
