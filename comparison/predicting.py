@@ -30,7 +30,7 @@ from comparison.bouncing import bounce
 from comparison.doubts import doubts, energy_at_end, wide_bars
 from comparison.questions import Question
 from comparison.readable import milliseconds, write_answer
-from comparison.runs import Runs, numbers_of, runs_of
+from comparison.runs import Runs, first_instants, numbers_of, runs_of
 from comparison.store import RunStore
 from comparison.texts import prediction_text
 from theory import Prediction, predict
@@ -72,7 +72,7 @@ def instant_numbers(runs: Runs) -> dict[str, Number]:
     known["half_contact_length"]["element"] = reading["element"]
     if question.late and converges(question.impact):
         known["impulse"]["about_the_time"] = _crossings(runs)
-    known["peak_moment"]["first_instants"] = FACTOR * max(reading["moment_left_out"] - reading["peak_moment"], 0.0)
+    known["peak_moment"]["first_instants"] = first_instants(reading)
     if not question.late:
         impact = question.impact
         # a load, damping, or a wall that gives way may lift the zone rightly; else the scheme has thrown it off, as it

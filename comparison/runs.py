@@ -15,14 +15,14 @@ from typing import Any
 from bent_beam import Impact, ImpactHistory, InputError, SimulationError
 from bent_beam.hysteresis import converges
 from bent_beam.measure.balance import Balance
-from bent_beam.measure.numbers import Band, Number, number_of
+from bent_beam.measure.numbers import FACTOR, Band, Number, number_of
 from bent_beam.method import Method, settings_of
 from comparison.doubts import loss_warnings
 from comparison.questions import Question
 from comparison.store import RunStore, code_of, source_of
 from comparison.workers import run_all
 
-__all__ = ["Run", "Runs", "bands_of", "kept", "numbers_of", "runs_of"]
+__all__ = ["Run", "Runs", "bands_of", "first_instants", "kept", "numbers_of", "runs_of"]
 
 LEAST = 1e-4  # of a number of one beam: whole beams drawn at random are off by more where companions agree better
 Reading = Callable[[ImpactHistory], dict[str, Any]]
@@ -175,6 +175,11 @@ def numbers_of(
         else:
             found[name] = number_of(value, others, extra.get(name), least=LEAST)
     return found
+
+
+def first_instants(reading: Mapping[str, Any]) -> float:
+    """What the largest moment may be more, having been at first, where a mesh does not resolve it."""
+    return FACTOR * max(reading["moment_left_out"] - reading["peak_moment"], 0.0)
 
 
 def bands_of(runs: Runs, names: Sequence[str]) -> dict[str, Band | Number]:

@@ -30,10 +30,7 @@ GROWTH = 0.01  # neighbours of the chosen mesh: 5 elements over the front's bend
 THIN = 0.12  # κ/ν below which hits of nodes at the front of that mesh lift the zone; 0.07 without: λ₁ 23 % off
 WAVES, GROWTH_OF_WAVES = 2.0, 0.02  # beyond so many times the front's bound there are waves only, and these neighbours
 OF_ZONE, OF_BENDING = 300.0, 30.0  # the smallest element over the front's bound and over the bending ahead of it …
-OF_SHORT_ZONE, SHORTEST = (
-    60.0,
-    0.01,
-)  # … and over the bound times 1 − κ/ν, or times this where κ/ν is nearer to 1: so the zone shrinks
+OF_SHORT_ZONE, SHORTEST = 60.0, 0.01  # … and over the bound times 1 − κ/ν or, nearer to κ/ν = 1, times this
 OF_SHORT_ZONE_EXPLICIT, SHORTEST_EXPLICIT = 3.0, 0.07  # likewise; λ₀ is 12 % off at κ/ν = 0.93 with 1.8 elements
 OF_THIN_FRONT = 3.0  # equal elements over the bending length of a thin front at the end of the run, …
 LEAST_OF_ZONE, MOST_OF_ZONE = 300.0, 800.0  # … but so many at least and at most up to the front's bound
