@@ -20,7 +20,7 @@ from bent_beam.impact import Impact
 from bent_beam.loads import wall_scales
 from theory.contact import ContactParameters
 from theory.elastic_wall import FLATTEST, MOST_DAMPED, SHARPEST, peak_force
-from theory.validity import DAMPING, validity
+from theory.validity import DAMPING, SHEAR, validity
 
 #: κ/ν of the flattest zone, and the least ζ, whose force and impulse were seen to come back to the rigid wall's.
 FLATTEST_SETTLED, LEAST_DAMPED = 0.35, 0.25
@@ -30,6 +30,8 @@ ZONE_TIME, ZONE_LENGTHS = 200.0, 4.2
 POINT_TIME, SHARP_POINT_TIME = 29.0, 14.0
 #: η/t_k from which the beam's own damping changes the largest force by more than 2 % (κ/ν ≤ 5; measured).
 MOST_OWN_DAMPING = 0.18
+#: t_k/t_s below which shear changes the largest force of a zone, and of one point, by more than 2 % (docs/wall.md).
+SHEAR_TIMES, POINT_SHEAR_TIMES = 3.0, 10.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,7 +48,7 @@ class WallPrediction:
         half_contact_length: of the zone then, m.
         penetration, pressure: the largest anywhere, m and N/m.
         spoiled_by: what changes force and penetration before they are largest, one of the names in `theory.validity`;
-            None: nothing. Shear does not count: docs/wall.md.
+            None: nothing.
         zone_offset: what the zone is longer by later, m; 0 for one point, whose zone shrinks.
         rigid_from: time after which the force over a tenth of the time, its place and the impulse are those of the
             rigid wall to 2 %, s; infinite where none is known.
@@ -110,7 +112,10 @@ def _spoiled_by(impact: Impact, solved: ContactParameters, wall_time: float, pea
     """What the infinite beam lacks when the force is largest."""
     if impact.damping > MOST_OWN_DAMPING * wall_time:
         return DAMPING
-    return validity(impact.replace(damping=0.0), solved).spoiled_by(peak_time)
+    sheared = SHEAR_TIMES if solved.kappa_over_nu < 1.0 else POINT_SHEAR_TIMES
+    if impact.shear_stiffness is not None and wall_time < sheared * impact.shear_time:
+        return SHEAR
+    return validity(impact.unsheared.replace(damping=0.0), solved).spoiled_by(peak_time)
 
 
 def _rigid_from(ratio: float, damping: float, lambda0: float) -> float:

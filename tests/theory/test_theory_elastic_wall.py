@@ -117,6 +117,16 @@ def test_prediction_in_si_units(monkeypatch: pytest.MonkeyPatch) -> None:
     assert (rigid.peak_force, rigid.wall) == (None, None) and rigid.valid_until > 0.0
 
 
+@pytest.mark.parametrize(("kappa_over_nu", "times"), [(0.5, 3.0), (2.0, 10.0)])
+def test_shear_spoils_the_largest_force_of_a_wall_that_is_fast_beside_it(kappa_over_nu: float, times: float) -> None:
+    # t_k = 1; measured beside a Timoshenko beam by benchmarks.shear
+    beams = [
+        Impact(1.0, 1.0, 1e3, 1e-3 * kappa_over_nu, 1e-3, wall_stiffness=1.0, shear_stiffness=share * times)
+        for share in (0.99, 1.01)
+    ]
+    assert [predict(beam).wall.spoiled_by for beam in beams] == ["shear", None]
+
+
 def test_a_stiff_beam_is_a_rigid_one_and_its_energy_is_all_in_the_spring():
     rod = SwungBeam(1e4, 0.5, 0.8, 2.0, 300.0, modes=6)
     mass = 0.5 * 0.8 / 3.0  # of the end that has the moment of inertia of the rod
