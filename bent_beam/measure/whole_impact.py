@@ -2,7 +2,7 @@
 
 A hit is a time of contact whose gaps are shorter than a period of the first mode; these numbers are of the first:
 
-    e = −velocity of the centre of mass after it/V₀,   J = impulse until then/(μℓV₀), without loads 2(1 + e),
+    e = −velocity of the centre of mass after it/before it,   J = impulse until then/(μℓV₀), without loads 2(1 + e),
 
 its last contact T_c/T*, how often the beam was off the wall, and the shares of energy then, of what the beam had and
 the loads have worked. The largest bending moment of the elastic strain, EI u_xx/(V₀√(EIμ)), and the largest force on a
@@ -50,8 +50,8 @@ class WholeImpact:
         contact.
     peak_moment_place : |x|/ℓ. moment_left_out : what the moment may have been at first
         (:func:`bent_beam.measure.reduction.moment_left_out`).
-    translation, vibration, dissipated : shares of the initial energy and the work of the
-        loads, altogether one.
+    translation, vibration, dissipated : shares of the initial energy and the work of the loads, altogether one; the
+        rotation of a beam that rocks counts as vibration.
     peak_force : on the zone of a wall that gives way, over μℓV₀/T*, with its time and its mean |x|/ℓ; ``None`` of a
         rigid one. push : the largest impulse within :data:`WINDOW` T*, over μℓV₀; push_time : when the wall begins
         to push within that; push_rise : its part that lies between saved instants, where a
@@ -59,7 +59,7 @@ class WholeImpact:
     supplied : the initial energy and the work of the loads until then, J.
     energy_defect : what the independently computed terms of the budget leave, of the initial energy; energy_gain : the
         largest rise of the energy, what springs of the wall hold included, above what loads have worked, likewise.
-    left : whether the beam is off the wall for good; None of the numbers is final otherwise.
+    left : whether the beam is off the wall for good; otherwise no number is final.
     """
 
     restitution: float | None
@@ -129,8 +129,9 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
     rise = _rise_between(gained, k) if impact.wall_stiffness is not None else 0.0
     begin = k + max(int(np.argmax(total[k:] > total[k])) - 1, 0)
     kept, supplied = (float(np.interp(last, time, values)) for values in (energy, work))
-    restitution = _mean_velocity(history, end) / -speed if impact.supported else impulse - load * last - 1.0
-    translation = 0.5 * mass * (restitution * speed) ** 2 / supplied
+    before = speed if impact.supported else _arrives(impact)
+    after = _mean_velocity(history, end) if impact.supported else before - (impulse - load * last) * speed
+    restitution, translation = -after / before, 0.5 * mass * after**2 / supplied
     return WholeImpact(
         restitution=restitution if left or len(contacts) > len(hit) else None,
         impulse=2.0 * impulse,
@@ -195,6 +196,12 @@ def _grouped(contacts: list[tuple[int, int, str]], impact: Impact, time: Array) 
     return groups
 
 
+def _arrives(impact: Impact) -> float:
+    """Velocity of the centre of mass of a free beam at the first touch, m/s: V₀ + c₀x²/2 and its rotation, averaged."""
+    places = np.array([-impact.half_length, 0.0, impact.half_length]) - impact.first_touch
+    return float(impact.free_motion(0.0)(places, by_t=1) @ (1.0, 4.0, 1.0)) / 6.0  # Simpson's rule is exact
+
+
 def _mean_velocity(history: ImpactHistory, k: int) -> float:
     """Velocity of the centre of mass into the wall at saved instant ``k``, m/s."""
     x = history.positions(k)
@@ -237,7 +244,7 @@ def hits(history: ImpactHistory) -> list[Hit]:
     energy = history.array("kinetic_energy") + history.array("strain_energy") - work + history.energy("contact_energy")
     mass = impact.mass_per_length * impact.length
     gained = impact.load_within(impact.half_length) * time - history.array("total_impulse")
-    velocity = impact.velocity + gained / mass
+    velocity = _arrives(impact) + gained / mass
     if impact.supported:  # by forces that no history holds
         velocity = np.array([_mean_velocity(history, k) for k in range(time.size)])
     found = []

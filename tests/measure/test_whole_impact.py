@@ -154,6 +154,16 @@ def test_breaks_shorter_than_the_shortest_separation_are_none() -> None:
         whole_impact(pushed_until(0.0))
 
 
+def test_a_beam_whose_bow_opens_on_its_way_arrives_with_its_mean_velocity() -> None:
+    beam = Impact.whole_beam(0.5, relative_damping=1e-2).replace(curvature_rate=1.5)
+    run = COARSE.simulate(beam, end_time=1.5, save=np.linspace(0.0, 1.5, 1501))
+    x, hit, found = run.positions(0), hits(run)[0], whole_impact(run)
+    means = [np.trapezoid(run.array("velocity", k), x) for k in (0, int(np.searchsorted(run.time, hit.end)))]
+    assert (hit.before, hit.after) == pytest.approx(means, abs=2e-3)  # of a half beam, ℓ = 1
+    assert hit.before == pytest.approx(1.25) and found.restitution == pytest.approx(-hit.after / hit.before)
+    assert found.translation == pytest.approx(means[1] ** 2 / found.supplied, rel=5e-3)
+
+
 def test_a_rocking_beam_keeps_momentum_and_energy_and_one_that_hardly_rocks_is_the_half_beam() -> None:
     impact = Impact.whole_beam(0.5, relative_damping=1e-2)
     history = COARSE.simulate(impact.replace(rotation=0.5, first_touch=0.2), end_time=0.4, save=400)
