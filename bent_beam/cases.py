@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bent_beam.checks import shortened
-from bent_beam.description import impact_of
+from bent_beam.description import GRAVITY, impact_of
 from bent_beam.errors import InputError, unknown_key
 from bent_beam.fields import key_of, made_from, part_from_table, part_or_auto
 from bent_beam.impact import Impact
@@ -214,7 +214,8 @@ def _lay(tables: dict[str, Any], key: str, value: Any, option: str) -> None:
     for ways in WAYS.get(".".join(path), ()):
         others = [name for name in ways if last in ways and name != last and name in table]
         for name in {*others, *(own for other in others for own in ways[other])} - {*ways.get(last, ())}:
-            table.pop(name, None)
+            if table.pop(name, None) is not None and name == "drop_height" and "acceleration" not in table:
+                table.setdefault("gravity", GRAVITY)  # by which it fell, and falls on
     table[last] = value
 
 

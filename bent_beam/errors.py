@@ -27,7 +27,8 @@ class SimulationError(RuntimeError):
     def __init__(
         self, message: str, *, time: float | None = None, step: int = 0, advice: str = "", history: Any = None
     ) -> None:
-        super().__init__(message if time is None else f"{message} at t = {time:.6g} s (step {step}); try: {advice}")
+        where = "" if time is None else f" at t = {time:.6g} s (step {step})"
+        super().__init__(message + where + (f"; try: {advice}" if where and advice else ""))
         self.time, self.step, self.advice, self.history = time, step, advice, history
 
 

@@ -78,7 +78,8 @@ class Quantity:
     def checked_number(self, name: str, value: Any, *, whole: bool) -> float:
         """``value`` as a finite float (or int) in the range. Raises ``ValueError``."""
         if whole:
-            return checks.whole(name, value, int(self.least or 0))
+            value = checks.whole(name, value, int(self.least or 0))
+            return value if self.most is None else int(checks.between(name, value, self.least or 0, self.most))
         size = abs(checks.finite(name, value))
         if size > checks.LARGEST:
             raise InputError(f"{name} must not exceed {checks.LARGEST:g} (got {checks.shortened(value)})")

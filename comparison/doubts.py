@@ -47,7 +47,8 @@ def doubts(impact: Impact, section: Section | None) -> list[str]:
         )
     force, pull = impact.axial_force, impact.axial_force * impact.length**2
     pull /= math.pi**2 * impact.bending_stiffness
-    if pull > STRAIGHTENED and impact.curvature and not impact.supported:
+    held = impact.tension_direction == "tangent" and not impact.acceleration
+    if pull > STRAIGHTENED and impact.curvature and not (impact.supported or held):
         found.append(
             f"the bow is free of stress and not in equilibrium under the tension, which straightens it (at rest to "
             f"about {100.0 / (1.0 + pull):.2g} % of its height); where other forces hold it, give "

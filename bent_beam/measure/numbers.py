@@ -76,8 +76,9 @@ class Number:
     def scaled(self, unit: float, shift: float = 0.0, name: str = "") -> Number:
         """The number in another unit, called ``name``, and a known constant added."""
         value, theory = (None if v is None else v * unit + shift for v in (self.value, self.theory))
-        parts = {cause: part * unit for cause, part in self.parts.items()}
-        return Number(value, None if self.bar is None else self.bar * unit, theory, name, parts)
+        size = abs(unit)
+        parts = {cause: part * size for cause, part in self.parts.items()}
+        return Number(value, None if self.bar is None else self.bar * size, theory, name, parts)
 
     def to_dict(self) -> dict[str, Any]:
         """Value and bar, and the theory where there is one, JSON-ready."""

@@ -166,8 +166,13 @@ def _near(asked: Problem, seed: int) -> str:
     draw = random.Random(f"{seed} {asked.id}")
     if not asked.is_front:
         found = IDS[asked.kind].fullmatch(asked.id)
-        numbers = [float(f"{float(word) * draw.uniform(0.85, 1.15):.4g}") for word in (found.groups() if found else ())]
-        return "-".join([asked.kind, *(f"{value:.12g}" for value in numbers)])
+        words = found.groups() if found else ()
+        while True:  # until all numbers lie in the range of the kind
+            numbers = [float(f"{float(word) * draw.uniform(0.85, 1.15):.4g}") for word in words]
+            try:
+                return problem("-".join([asked.kind, *(f"{value:.12g}" for value in numbers)])).id
+            except InputError:
+                continue
     kappa = asked.kappa_over_nu * random.Random(f"{seed} {asked.kappa_over_nu:g}").uniform(0.85, 1.15)
     kappa = float(f"{min(kappa, 0.95) if asked.kappa_over_nu < 1.0 else max(kappa, 1.05):.4g}")
     if asked.kind != "first":

@@ -9,6 +9,7 @@ from here import CASES
 
 from bent_beam import InputError, load_case
 from bent_beam.cases import case_from_tables, lay_over
+from bent_beam.description import GRAVITY
 from bent_beam.loads import wall_scales
 from bent_beam.meshes import GradedMesh
 from bent_beam.section import General, Pipe, Rectangle, RoundBar
@@ -224,6 +225,9 @@ def test_an_amplitude_at_a_frequency_is_a_velocity_and_what_is_laid_over_a_case_
     lay_over(tables, ["beam.curvature=0.3", "beam.damping=0.5", "impact.velocity=3"])
     impact = case_from_tables(tables).impact
     assert (impact.curvature, impact.damping, impact.velocity) == (0.3, 0.5, 3.0)
+    fallen = {"impact": {"drop_height": 0.5}}
+    lay_over(fallen, ["impact.velocity=1"])
+    assert fallen["impact"] == {"velocity": 1, "gravity": GRAVITY}  # it falls on
 
 
 SAME = [("beam.curvature=0.3", "beam.dogleg=1"), ("beam.ends=free", "beam=1"),

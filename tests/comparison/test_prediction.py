@@ -120,6 +120,8 @@ def test_a_pull_as_large_as_the_buckling_load_leaves_half_of_a_bow_and_a_tenth_o
     """A half sine of height b rests at b/(1 + NL²/(π²EI))."""
     said = {share: doubts(Impact(4.0, 1.0, 2.0, 0.1, 1.0, axial_force=share * np.pi**2), None) for share in (1.0, 0.09)}
     assert "(at rest to about 50 % of its height)" in said[1.0][0] and said[0.09] == []
+    held = Impact(4.0, 1.0, 2.0, 0.1, 1.0, axial_force=np.pi**2, tension_direction="tangent", acceleration=0.0)
+    assert doubts(held, None) == []  # by other forces
 
 
 def test_text_names_the_force_on_a_wall_that_gives_way_and_what_makes_the_beam_another() -> None:

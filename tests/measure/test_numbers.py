@@ -60,3 +60,5 @@ def test_runs_that_agree_by_chance_give_no_finer_bar() -> None:
 def test_a_band_is_mean_and_standard_deviation_of_its_runs() -> None:
     assert Band.of([1.0, 2.0, 3.0]) == Band(2.0, 1.0, 3)
     assert Band.of([1.0, 2.0, 3.0]).scaled(2.0) == Band(4.0, 2.0, 3)
+    turned = Number(0.3, 2.0, parts={"mesh": 2.0}).scaled(-1.0)
+    assert (turned.value, turned.bar, turned.parts) == (-0.3, 2.0, {"mesh": 2.0})

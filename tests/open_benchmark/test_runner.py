@@ -206,6 +206,11 @@ def test_drawn_problems_are_near_the_named_ones_share_their_base_and_differ_with
     assert drawn(["ball", "bounce-2-1e-3"], 1) == []
 
 
+@pytest.mark.parametrize("name", ["elastic-wall-0.5-5", "elastic-stop-3000", "elastic-wall-1000000-0.1"])
+def test_a_problem_at_the_end_of_its_range_is_drawn_within(name):
+    assert all(problem(near).kind == problem(name).kind for seed in range(20) for near in drawn([name], seed))
+
+
 @pytest.mark.parametrize("name", ["...py", "-x.py", "hermite.py"])
 def test_the_name_of_an_adapter_stays_in_the_folder_of_results_and_is_its_own(tmp_path, name):
     (tmp_path / name).write_text("")
