@@ -23,7 +23,7 @@ from bent_beam.hysteresis import FIRST_MODE, branches_of
 from bent_beam.impact import Impact
 from bent_beam.loads import loads_of
 
-__all__ = ["LOWEST_PERIOD", "Separation", "bears_free_flight", "cannot_return", "has_left", "pushing"]
+__all__ = ["LOWEST_PERIOD", "Separation", "acting", "bears_free_flight", "cannot_return", "has_left"]
 
 Array = NDArray[np.float64]
 
@@ -31,14 +31,14 @@ Array = NDArray[np.float64]
 LOWEST_PERIOD = 2.0 * math.pi / (FIRST_MODE / 2.0) ** 2
 
 ROUND_OFF = 1e-9
-"""Of the largest impulse of the record: less between two saved instants is no push. A path that takes the
+"""Of the largest impulse of the record: less between two saved instants is no force. A path that takes the
 impulse from the beam's momentum leaves 1e-12 to 1e-10 of it in free flight."""
 
 
-def pushing(impulse: Array) -> NDArray[np.bool_]:
-    """Between which saved instants a wall pushed, of its impulse so far: shape (times − 1,) and, for contact points,
-    (times − 1, contacts)."""
-    return np.diff(impulse, axis=0) > ROUND_OFF * float(np.abs(impulse).max(initial=0.0))
+def acting(impulse: Array) -> NDArray[np.bool_]:
+    """Between which saved instants a wall pushed, or pulled where it may, of its impulse so far: shape (times − 1,)
+    and, for contact points, (times − 1, contacts)."""
+    return np.abs(np.diff(impulse, axis=0)) > ROUND_OFF * float(np.abs(impulse).max(initial=0.0))
 
 
 def bears_free_flight(impact: Impact) -> bool:
@@ -81,7 +81,7 @@ State = tuple[Array, Array, Array, float]
 def has_left(history: ImpactHistory) -> bool:
     """Whether a run ends with the beam off the wall for good: it cannot return, or, where that cannot be told, has not
     pushed for a period of its lowest mode."""
-    pushed = np.flatnonzero(pushing(history.array("total_impulse")))
+    pushed = np.flatnonzero(acting(history.array("total_impulse")))
 
     def last() -> State:
         energy = float(history.array("kinetic_energy")[-1] + history.array("strain_energy")[-1])

@@ -68,6 +68,9 @@ class Contact(Part, ABC):
 
     where: ClassVar[str] = "contact"
 
+    sticks: ClassVar[bool] = False
+    """Whether :meth:`law` has a strength: a whole beam then gets a scheme in which what has landed rests."""
+
     restitution: Annotated[float, Quantity("", "e", least=0.0, most=1.0)] = 0.0
     hold: Annotated[int, Quantity("", "constraints in the bilateral strip behind the front", least=0)] = 0
     hold_until: Annotated[float, Quantity("s", "until then closed constraints do not open", least=0.0)] = 0.0

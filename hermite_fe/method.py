@@ -139,11 +139,11 @@ class HermiteFE(Composition):
 
     def cross_checks(self, impact: Impact) -> dict[str, Self]:
         """What stands beside it for error bars, by cause: the impact law of another scheme, without shear with steps
-        twice as long (half of the work; the bar then counts the step twice)."""
+        twice as long (half of the work; the bar then counts the step twice). None of contact that may pull."""
         chosen = self.for_whole_beam(impact)
         integrator, contact = chosen.integrator, chosen.contact
         assert integrator is not None
-        if integrator.elastic or contact is None:
+        if integrator.elastic or contact is None or contact.sticks:
             return {}
         law: type[MoreauJean] | type[SignoriniPosition] = MoreauJean
         if isinstance(integrator, MoreauJean):  # nodes that rebound have another law in those that do not

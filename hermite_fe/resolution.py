@@ -151,7 +151,8 @@ def scheme_for(impact: Impact, contact: Contact, theta: float = 1.0) -> Integrat
     """The integrator that is chosen; θ of those before a rigid wall."""
     if impact.wall_stiffness is not None:
         return Midpoint()
-    return SignoriniPosition(theta=theta) if contact.restitution == 0.0 else MoreauJean(theta=theta)
+    at_velocity = contact.restitution > 0.0 or (contact.sticks and theta < 1.0)
+    return MoreauJean(theta=theta) if at_velocity else SignoriniPosition(theta=theta)
 
 
 def modelled_half_length(impact: Impact, domain: float | None) -> float:

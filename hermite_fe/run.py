@@ -88,8 +88,13 @@ class Stepper:
             raise InputError(f"{kind} has no impact law: restitution must be 0 (got {law.restitution!r})")
         if not np.all(np.asarray(law.strength) >= 0.0):
             raise InputError(f"strength must be 0 or more, N (got {float(np.min(law.strength))!r})")
-        if np.any(law.strength) and not integrator.holds_zone:
-            raise InputError(f"strength has no effect with {kind}: take MoreauJean or SignoriniPosition")
+        if np.any(law.strength) and not integrator.sticks:
+            raise InputError(
+                "integrator.kind: contact that may pull needs moreau_jean, or signorini_position with theta = 1 "
+                f"(got {kind})"
+            )
+        if np.any(law.strength) and law.restitution:
+            raise InputError(f"contact that may pull does not rebound: restitution must be 0 (got {law.restitution!r})")
         for name, value in (("q", q), ("v", v)):
             if np.shape(value) != (system.dofs,):
                 raise InputError(f"{name} must have shape ({system.dofs},) (got {np.shape(value)})")

@@ -23,7 +23,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bent_beam.free_flight import LOWEST_PERIOD, has_left, pushing
+from bent_beam.free_flight import LOWEST_PERIOD, acting, has_left
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.measure.reduction import moment_left_out, peak_moment, wall_peaks
@@ -91,8 +91,9 @@ class WholeImpact:
 
 
 def pushes(time: Array, impulse: Array, shortest: float) -> list[tuple[int, int]]:
-    """Saved instants at which contacts begin and end, separations shorter than ``shortest`` (s) ignored."""
-    pushed = np.flatnonzero(pushing(impulse))
+    """Saved instants at which contacts begin and end, separations shorter than ``shortest`` (s) ignored; a pull is
+    contact, too."""
+    pushed = np.flatnonzero(acting(impulse))
     if pushed.size == 0:
         return []
     apart = np.flatnonzero(time[pushed[1:]] - time[pushed[:-1] + 1] >= shortest * (1.0 - 1e-9))
@@ -251,7 +252,8 @@ def hits(history: ImpactHistory) -> list[Hit]:
     for group in _grouped(sorted(parts), impact, time):
         i, k, wall = group[0][0], group[-1][1], group[0][2]
         given = rows[wall][k] - rows[wall][i]
-        place = float(given @ np.abs(history.contact_positions(0))) / float(given.sum())
+        size = np.abs(given)
+        place = float(size @ np.abs(history.contact_positions(0))) / float(size.sum())
         numbers = (place, given.sum(), velocity[i], velocity[k], energy[k] + work[k], energy[i] - energy[k])
         found.append(Hit(wall, float(time[i]), 0.5 * float(time[k - 1] + time[k]), *map(float, numbers)))
     return found

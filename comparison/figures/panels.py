@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam import Impact, ImpactHistory
-from bent_beam.free_flight import pushing
+from bent_beam.free_flight import acting
 from bent_beam.measure.reduction import wall_peaks
 from bent_beam.measure.whole_impact import WINDOW
 from comparison.figures import style
@@ -117,7 +117,7 @@ def _mark(axis: Any, time: float, value: float, words: str) -> None:
 
 def contacts(history: ImpactHistory, name: str = "impulse") -> tuple[Array, Array]:
     """Times, s, and places, m, at which a wall pushed, on both halves."""
-    k, j = np.nonzero(pushing(history.array(name)))
+    k, j = np.nonzero(acting(history.array(name)))
     time = 0.5 * (history.time[:-1] + history.time[1:])[k]
     places = np.array([history.contact_positions(int(i))[m] for i, m in zip(k, j)]) if k.size else np.zeros(0)
     if history.sides == 1:

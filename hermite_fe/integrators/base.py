@@ -35,8 +35,7 @@ class Integrator(Part, ABC):
     """Whether the scheme supports the hold (:mod:`hermite_fe.contacts`)."""
 
     holds_zone: ClassVar[bool] = False
-    """Whether a hold of the whole zone, as in runs that measure what a pressing load changes, is stable, and closed
-    constraints may have a strength."""
+    """Whether a hold of the whole zone, as in runs that measure what a pressing load changes, is stable."""
 
     rebounds: ClassVar[bool] = True
     """Whether the scheme has an impact law, for restitution."""
@@ -55,6 +54,11 @@ class Integrator(Part, ABC):
     growth: Annotated[
         float | None, Quantity("", "step over time since impact", least=0.0, absent="chosen; 0 with a time_step")
     ] = None
+
+    @property
+    def sticks(self) -> bool:
+        """Whether closed constraints may have a strength: what has landed rests on the wall in the next step."""
+        return False
 
     def with_steps(self, time_step: float, growth: float) -> Integrator:
         """A copy whose unset steps are these."""

@@ -83,6 +83,10 @@ class Theta(Integrator):
         float, Quantity("", "θ; ½ conserves energy between impacts, 1 damps unresolved waves", least=0.5, most=1.0)
     ] = 1.0
 
+    @property
+    def sticks(self) -> bool:
+        return not self.at_position or self.theta == 1.0
+
     def start(self, problem: Problem, state: State) -> tuple[Constraints, Vectors]:
         return constraints_of(problem.rows), vectors_of(problem)
 

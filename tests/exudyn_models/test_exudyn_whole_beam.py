@@ -6,7 +6,7 @@ from markdown_tables import lines_after, stated
 from numpy.testing import assert_allclose
 
 from bent_beam import Impact
-from bent_beam.free_flight import pushing
+from bent_beam.free_flight import acting
 from bent_beam.meshes import UniformMesh
 from exudyn_models import ExudynModel
 from exudyn_models.contacts import penalty
@@ -87,7 +87,7 @@ def test_a_stopped_beam_gathers_its_exact_impulse_until_the_first_release():
     history = method.simulate(impact, end_time=count * step, save=times)
     gathered, time = history.array("total_impulse")[1:], history.time[1:]
     assert np.interp(release, time, gathered) == pytest.approx(impulse, abs=1e-3)
-    let_go = time[int(np.argmin(pushing(gathered)))]
+    let_go = time[int(np.argmin(acting(gathered)))]
     assert abs(let_go - release) <= 2.0 * step
 
 

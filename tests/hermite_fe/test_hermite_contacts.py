@@ -2,7 +2,7 @@
 a little, by a law of somebody's own; contact points without mass."""
 
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 import numpy as np
 import pytest
@@ -12,7 +12,9 @@ from bent_beam import Impact, ImpactHistory
 from bent_beam.fields import Quantity
 from bent_beam.measure.estimators import leading_order
 from bent_beam.measure.moments import moments
+from bent_beam.measure.whole_impact import whole_impact
 from bent_beam.meshes import ScaleFreeMesh, UniformMesh
+from bent_beam.method import simulate_to_separation
 from hermite_fe import HermiteFE, simulate
 from hermite_fe.beam import shape_functions
 from hermite_fe.constraints import ContactLaw
@@ -162,6 +164,7 @@ SCHEMES = pytest.mark.parametrize("scheme", [SignoriniPosition(H), MoreauJean(H,
 class AdhesiveContact(NodeContact):
     """Contact at nodes; the wall pulls those that have touched, with so much at most."""
 
+    sticks: ClassVar[bool] = True
     pull: Annotated[float, Quantity("N/m", "largest pull per length of beam", least=0.0)] = 0.0
 
     def law(self, rows: ContactRows, hold_ends: float) -> ContactLaw:
@@ -200,6 +203,21 @@ def test_a_weight_that_is_lifted_leaves_when_the_lift_exceeds_the_strength(schem
     found = integrate(system, np.zeros(1), np.zeros(1), scheme, 1.5, law=law, save=1500)
     assert found.time[found.closed[:, 0]].max() == pytest.approx((2.0 + strength) / 4.0, abs=3e-3)
     assert found.held_impulse[-1, 0] == pytest.approx(-(strength**2) / 8.0, abs=2e-3)
+
+
+def test_a_beam_leaves_a_wall_that_pulls_the_later_and_slower_the_harder_it_pulls() -> None:
+    """And the whole impact knows: a pull is contact."""
+    beam, found = Impact.whole_beam(0.5, relative_damping=3e-3), []
+    for pull in (0.0, 100.0, 200.0):
+        method = HermiteFE(mesh=UniformMesh(1.0 / 60.0), contact=AdhesiveContact(pull=pull)).for_whole_beam(beam)
+        run = simulate_to_separation(method, beam)
+        last = int(np.flatnonzero(run.array("in_contact").any(axis=1)).max())
+        found.append(whole_impact(run))
+        mean = np.trapezoid(run.array("velocity", last + 1), run.positions(0))
+        assert found[-1].restitution == pytest.approx(-mean, abs=2e-3)
+        assert found[-1].last_contact == pytest.approx(run.time[last], abs=2e-3)
+    assert found[0].restitution > found[1].restitution > 2.0 * found[2].restitution > 0.0
+    assert found[0].last_contact < found[1].last_contact < found[2].last_contact
 
 
 # --- contact points without mass: nothing impacts, nothing is lost, and what no impact takes throws the zone off ------

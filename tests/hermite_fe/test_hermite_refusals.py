@@ -82,9 +82,11 @@ REFUSED = [
     (lambda: simulate(LOSSY), "hysteretic_loss" + WAY),
     (lambda: simulate(SHEARED, contact=MiddleContact()), r"contact\.kind" + WAY),
     # a largest pull
-    *((lambda kind=kind: at_rest(ALL[kind](1e-4), 1.0, law=ContactLaw(strength=np.ones(1))), "strength has no effect")
+    *((lambda kind=kind: at_rest(ALL[kind](1e-4), 1.0, law=ContactLaw(strength=np.ones(1))), "needs moreau_jean")
       for kind in ("penalty", "velocity", "position_velocity_acceleration")),
     (lambda: at_rest(MoreauJean(1e-4), 1.0, law=ContactLaw(strength=-np.ones(1))), r"0 or more, N \(got -1.0\)"),
+    (lambda: at_rest(MoreauJean(1e-4), 1.0, law=ContactLaw(0.5, strength=np.ones(1))), r"must be 0 \(got 0.5\)"),
+    (lambda: at_rest(SignoriniPosition(1e-4, theta=0.9), 1.0, law=ContactLaw(strength=np.ones(1))), "theta = 1"),
 ]  # fmt: skip
 
 

@@ -151,9 +151,7 @@ def test_a_number_is_written_with_digits(words):
     assert "plain number" in refused("theory", *words.split())
 
 
-@pytest.mark.parametrize(
-    "words", ["predict 2026_11", "bounce 2026_11.toml --out 2026_11", "bounce c.toml --out=1_0"]
-)
+@pytest.mark.parametrize("words", ["predict 2026_11", "bounce 2026_11.toml --out 2026_11", "bounce c.toml --out=1_0"])
 def test_a_file_may_be_called_like_a_number(words) -> None:
     assert "No such file" in (said := refused(*words.split())) or "case file" in said
 
