@@ -28,17 +28,17 @@ PATHS = ("hermite", "exudyn")  # that are compared where none is named
 
 
 def chosen_methods(
-    names: Sequence[str], assignments: Sequence[str], file: Path | None, case: Case | None = None
+    names: Sequence[str], assignments: Sequence[str], files: Sequence[Path], case: Case | None = None
 ) -> list[Method]:
-    """The methods of ``--path`` and ``--set``, or those of ``--methods FILE``; see :func:`methods_of`.
+    """The methods of ``--path`` and ``--set``, or those of each ``--methods FILE``; see :func:`methods_of`.
 
     Raises :class:`InputError` when both name some.
     """
-    if file is None:
+    if not files:
         return methods_of(names or PATHS, assignments, case)
     if names or assignments:
-        raise InputError(f"--methods {file} names the methods: leave --path and --set out, or write them there")
-    return methods_from_file(file)
+        raise InputError(f"--methods {files[0]} names the methods: leave --path and --set out, or write them there")
+    return methods_from_file(*files)
 
 
 def methods_of(names: Sequence[str], assignments: Sequence[str] = (), case: Case | None = None) -> list[Method]:
@@ -68,11 +68,19 @@ def methods_of(names: Sequence[str], assignments: Sequence[str] = (), case: Case
     return found
 
 
-def methods_from_file(file: Path) -> list[Method]:
-    """The labelled methods of a file, in order.
+def methods_from_file(*files: Path) -> list[Method]:
+    """The labelled methods of files, in order.
 
     Raises :class:`InputError` for anything but a list of methods, an unknown path, part or value, a label given twice.
     """
+    found = [method for file in files for method in _methods(file)]
+    labels = [method.label for method in found]
+    if twice := next((label for i, label in enumerate(labels) if label in labels[:i]), None):
+        raise InputError(f"methods file {files[-1]}: label {twice!r} is given twice")
+    return found
+
+
+def _methods(file: Path) -> list[Method]:
     content = read_toml(file, "methods file")
     for key in content:
         if key != "method":
@@ -82,12 +90,7 @@ def methods_from_file(file: Path) -> list[Method]:
         raise InputError(f"methods file {file} must hold at least one [[method]] table")
     if len(tables) > MOST:
         raise InputError(f"methods file {file} holds {len(tables)} methods; {MOST} are the most")
-    found: list[Method] = []
-    for number, table in enumerate(tables, start=1):
-        found.append(_method(table, f"method {number}"))
-        if sum(m.label == found[-1].label for m in found) > 1:
-            raise InputError(f"method {number}: label {found[-1].label!r} is given twice")
-    return found
+    return [_method(table, f"method {number}") for number, table in enumerate(tables, start=1)]
 
 
 def _method(table: Any, where: str) -> Method:

@@ -62,8 +62,8 @@ def report(
     page = out / "index.html"
     if page.exists() and not overwrite:
         raise InputError(f"--out: {page} exists already (give another folder, or --overwrite)")
-    named = path or (PATHS if methods is None else ())
-    chosen, refines = chosen_methods(named, assignments or (), methods), factors(refine)
+    named = path or (() if methods else PATHS)
+    chosen, refines = chosen_methods(named, assignments or (), methods or ()), factors(refine)
     check_writable(out, folder=True)
     store = RunStore.usual(fresh)
     with progress("report", quiet) as bar:

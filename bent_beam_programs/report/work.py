@@ -32,11 +32,11 @@ KEPT = ("label", "path", "kappa_over_nu", "alpha", "psi", "chi", "axial", "refin
 
 @dataclass(frozen=True)
 class Measurement:
-    """What is measured. methods : a list in cases/methods; limit : s, for one row."""
+    """What is measured. methods : files in cases/methods; limit : s, for one row."""
 
     name: str
     title: str
-    methods: str
+    methods: tuple[str, ...]
     refines: tuple[float, ...]
     firsts: tuple[First, ...] = ()
     limit: float = 60.0
@@ -44,22 +44,25 @@ class Measurement:
     @property
     def command(self) -> str:
         """The same rows from the command line."""
-        words = [f"bentbeam match --methods cases/methods/{self.methods} --kappa-over-nu {KAPPA:g}"]
+        words = ["bentbeam match", *(f"--methods cases/methods/{file}" for file in self.methods)]
+        words.append(f"--kappa-over-nu {KAPPA:g}")
         words += [f"--first-order={','.join(f'{v:g}' for v in first[:3])}" for first in self.firsts]
         words.append(f"--refine {','.join(f'{r:g}' for r in self.refines)} --limit {self.limit:g} --jobs 2 --out out")
         return " ".join(words)
 
 
 MEASUREMENTS = (
-    Measurement("work-precision", "all integrators with all contacts, leading order", "all.toml", (1.0, 2.0)),
-    Measurement("work-precision-first-order", "integrators, first order", "first_order.toml", (0.5, 1.0),
+    Measurement("work-precision", "all integrators with all contacts, leading order", ("hermite.toml", "exudyn.toml"),
+                (1.0, 2.0)),
+    Measurement("work-precision-first-order", "integrators, first order", ("first_order.toml",), (0.5, 1.0),
                 ((4.0, 0.0, 0.0, 0.0),), limit=120.0),
 )  # fmt: skip
 
 
 def store_measurement(measurement: Measurement, *, jobs: int = 1) -> Path:
     """Measure and write rows and picture to ``stored/``; returns the file of rows."""
-    asked = questions(methods_from_file(LISTS / measurement.methods), [KAPPA], measurement.firsts, measurement.refines)
+    methods = methods_from_file(*(LISTS / file for file in measurement.methods))
+    asked = questions(methods, [KAPPA], measurement.firsts, measurement.refines)
     rows = match(asked, store=RunStore.usual(), jobs=jobs, limit=measurement.limit)
     draw_work_precision(rows, STORED)
     return stored.write(

@@ -74,8 +74,8 @@ def study(
         raise InputError("a case file is required: bentbeam study NAME CASE.toml")
     of_paths = [one for one in assignments or () if one.partition(".")[0].strip() in paths()]
     loaded = load_case(case, assignments or ())
-    asked = path or of_paths or methods is not None or refine is not None
-    varied = chosen_methods(path or (), of_paths, methods, loaded) if asked else []
+    asked = path or of_paths or methods or refine is not None
+    varied = chosen_methods(path or (), of_paths, methods or (), loaded) if asked else []
     refines = factors(refine)
     if out is not None:
         check_writable(out, folder=True)

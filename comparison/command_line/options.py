@@ -66,7 +66,8 @@ Set = Annotated[
     ),
 ]
 Methods = Annotated[
-    Path | None, typer.Option(metavar="FILE.toml", help="File of methods (see cases/methods/), in place of --path.")
+    list[Path] | None,
+    typer.Option(metavar="FILE.toml", help="File of methods (see cases/methods/), in place of --path. Repeatable."),
 ]
 ErrorBars = Annotated[
     str, typer.Option(help="quick (one companion run, half resolution), thorough (also twice), drift (none).")

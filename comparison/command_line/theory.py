@@ -94,7 +94,7 @@ def match(
     from comparison.rows import THESIS_KAPPAS, questions
     from comparison.store import RunStore, check_writable
 
-    compared = chosen_methods(path or (), assignments or (), methods)
+    compared = chosen_methods(path or (), assignments or (), methods or ())
     loads = [_load(text) for text in first_order or ()]
     kappas = kappa_over_nu or THESIS_KAPPAS
     asked = questions(compared, kappas, loads, factors(refine), error_bars, duration, _wall(wall))

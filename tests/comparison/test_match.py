@@ -200,13 +200,16 @@ def test_every_shipped_list_can_be_asked_for(file):
     assert methods_from_file(file)
 
 
-@pytest.mark.parametrize(("name", "types"), [("all", (HermiteFE, ExudynModel)), ("hermite", (HermiteFE,))])
-def test_a_list_of_all_pairs_holds_every_integrator_with_every_contact(name, types):
-    methods = methods_from_file(LISTS / f"{name}.toml")
-    for kind in types:
+def test_the_lists_of_all_pairs_hold_every_integrator_with_every_contact():
+    files = LISTS / "hermite.toml", LISTS / "exudyn.toml"
+    methods = methods_from_file(*files)
+    for kind, file in zip((HermiteFE, ExudynModel), files):
         pairs = [(type(m.integrator), type(m.contact)) for m in methods if isinstance(m, kind)]
         rigid = [one for one in kind.PARTS["integrator"].values() if not getattr(one, "elastic", False)]
         assert len(pairs) == len(set(pairs)) and set(pairs) == set(product(rigid, kind.PARTS["contact"].values()))
+        assert [m for m in methods if isinstance(m, kind)] == methods_from_file(file)
+    with pytest.raises(InputError, match="given twice"):
+        methods_from_file(*files, files[0])
 
 
 @pytest.mark.parametrize(
