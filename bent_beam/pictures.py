@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["draw_force", "draw_stress", "force_and_stress"]
+__all__ = ["force_and_stress"]
 
 CUT_OFF = 0.01  # of the run
 
@@ -18,34 +18,34 @@ def force_and_stress(history: Any) -> Any:
 
     figure = Figure(figsize=(6.0, 5.0), layout="constrained")
     upper, lower = figure.subplots(2, 1, sharex=True)
-    draw_force(upper, history)
-    draw_stress(lower, history)
+    _draw_force(upper, history)
+    _draw_stress(lower, history)
     return figure
 
 
-def draw_force(axis: Any, history: Any, **style: Any) -> None:
+def _draw_force(axis: Any, history: Any) -> None:
     """Mean force of the wall between saved instants; at the very start, where it falls like 1/√t, it is cut off."""
     force = history.force
     top = 1.2 * float(force[history.time >= CUT_OFF * history.time[-1]].max())
-    scale = _draw(axis, history, np.minimum(force, top), "force of the wall", "N", style)
+    scale = _draw(axis, history, np.minimum(force, top), "force of the wall", "N")
     if top > 0.0:
         axis.set_ylim(top=scale * top)
 
 
-def draw_stress(axis: Any, history: Any, **style: Any) -> None:
+def _draw_stress(axis: Any, history: Any) -> None:
     """Largest stress along the beam; without a section the largest bending moment."""
     stress = history.stress
     if stress is None:
-        _draw(axis, history, history.moment, "largest bending moment", "N m", style)
+        _draw(axis, history, history.moment, "largest bending moment", "N m")
     else:
-        _draw(axis, history, 1e-6 * stress, "largest stress", "MPa", style)
+        _draw(axis, history, 1e-6 * stress, "largest stress", "MPa")
 
 
-def _draw(axis: Any, history: Any, values: NDArray[np.float64], title: str, unit: str, style: dict[str, Any]) -> float:
+def _draw(axis: Any, history: Any, values: NDArray[np.float64], title: str, unit: str) -> float:
     """Over intervals between saved instants, of which the values are; returns the scale of the axis."""
     large = unit.startswith("N") and float(np.abs(values).max()) >= 1e3
     scale, prefix = (1e-3, "k") if large else (1.0, "")
-    axis.plot(1e3 * history.time[1:], scale * values[1:], drawstyle="steps-pre", **style)
+    axis.plot(1e3 * history.time[1:], scale * values[1:], drawstyle="steps-pre")
     axis.set_xlabel("$t$  (ms)")
     axis.set_ylabel(f"{title}  ({prefix}{unit})")
     return scale

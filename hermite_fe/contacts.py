@@ -54,8 +54,8 @@ from hermite_fe.constraints import ContactLaw
 from hermite_fe.masses import Mass
 from hermite_fe.system import ContactRows
 
-__all__ = ["CONTACTS", "AlternateContact", "Contact", "ImpactCoupling", "MeanContact", "MiddleContact", "NodeContact",
-           "element_rows", "impact_coupling"]  # fmt: skip
+__all__ = ["CONTACTS", "AlternateContact", "Contact", "MeanContact", "MiddleContact", "NodeContact", "element_rows",
+           "impact_coupling"]  # fmt: skip
 
 Array = NDArray[np.float64]
 
@@ -193,16 +193,8 @@ CONTACTS: dict[str, type] = {
 """Kinds of a case file's ``[hermite.contact]`` table."""
 
 
-@dataclass(frozen=True)
-class ImpactCoupling:
-    """moved_mass : 1/W_jj over μΔx, what an impact at one row has to stop; neighbour : c, see the module's text."""
-
-    moved_mass: float
-    neighbour: float
-
-
-def impact_coupling(contact: Contact, mass: Mass) -> ImpactCoupling:
-    """Of rows far from the ends of a beam of equal elements."""
+def impact_coupling(contact: Contact, mass: Mass) -> float:
+    """c, see the module's text, of rows far from the ends of a beam of equal elements."""
     from scipy.linalg import cho_solve_banded, cholesky_banded  # here: few runs need what takes long to import
 
     beam = HermiteBeam(np.arange(COUPLED + 1.0), 1.0, 1.0)
@@ -211,4 +203,4 @@ def impact_coupling(contact: Contact, mass: Mass) -> ImpactCoupling:
     np.put_along_axis(G, rows.dofs[j : j + 2], rows.factors[j : j + 2], axis=1)
     moved = cho_solve_banded((cholesky_banded(mass.matrix(beam), lower=True), True), G[0])
     own, next_one = (float(v) for v in G @ moved)
-    return ImpactCoupling(moved_mass=1.0 / own, neighbour=next_one / own)
+    return next_one / own

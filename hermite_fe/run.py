@@ -225,7 +225,6 @@ def integrate(
     integrator: Integrator,
     end_time: float,
     *,
-    restitution: float = 0.0,
     law: ContactLaw | None = None,
     save: int | Sequence[float] | Array = 200,
     progress: Callable[[float], None] | None = None,
@@ -233,16 +232,13 @@ def integrate(
 ) -> Trajectory:
     """Step ``system`` from (q, v) at t = 0 to ``end_time``, s, or to the last of given times.
 
-    q, v : (dofs,), in the system's units. law : of constraints that close, by default inelastic and unilateral;
-        restitution : in place of a law.
+    q, v : (dofs,), in the system's units. law : of constraints that close, by default inelastic and unilateral.
     save : number of saved instants, or times. progress : called with the finished fraction.
     until : called at every saved instant; the run ends with the first at which it returns True.
 
     A run that cannot finish returns the samples so far, with ``failure`` set. Raises ``ValueError`` for bad input.
     """
-    if law is not None and restitution:
-        raise InputError(f"restitution has no effect beside a law (got {restitution!r})")
-    run = Stepper(system, q, v, integrator, end_time, law or ContactLaw(float(restitution)))
+    run = Stepper(system, q, v, integrator, end_time, law)
     kept = saved_steps(run.instants, save)
     affordable("integrator and mesh", run.instants.size - 1, max(1, system.dofs // 2), kept.size, MOST_WORK)
     samples: list[dict[str, Any]] = []

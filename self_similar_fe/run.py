@@ -30,7 +30,7 @@ from numpy.typing import NDArray
 from bent_beam.checks import affordable, whole
 from bent_beam.errors import SimulationError
 from bent_beam.fields import describe
-from bent_beam.history import ImpactHistory
+from bent_beam.history import ImpactHistory, end_curvatures
 from bent_beam.impact import Impact
 from self_similar_fe.mesh import ExpandingMesh
 from self_similar_fe.similarity import leading_obstacle, similarity
@@ -142,20 +142,12 @@ class Run:
         """η_τ as Hermite degrees of freedom (value and ζ-derivative, from the curvature of both elements)."""
         state = self.state
         eta, zeta = state.eta, state.zeta
-        left, right = self.curvatures()
+        left, right = end_curvatures(zeta, eta[0::2], eta[1::2]).T
         bend = np.concatenate([[left[0]], 0.5 * (right[:-1] + left[1:]), [right[-1]]])
         velocity = np.empty_like(eta)
         velocity[0::2] = state.velocity()
         velocity[1::2] = state.rate[1::2] + 0.5 * eta[1::2] - 0.5 * zeta * bend
         return velocity
-
-    def curvatures(self) -> tuple[Array, Array]:
-        """η_ζζ at the left and at the right end of each element, shape (elements,) each; linear between them."""
-        h = np.diff(self.state.zeta)
-        w, t = self.state.eta[0::2], self.state.eta[1::2]
-        left = (6.0 * (w[1:] - w[:-1]) / h - 4.0 * t[:-1] - 2.0 * t[1:]) / h
-        right = (-6.0 * (w[1:] - w[:-1]) / h + 2.0 * t[:-1] + 4.0 * t[1:]) / h
-        return left, right
 
     def follow(self, progress: Callable[[float], None] | None) -> None:
         state = self.state
@@ -228,8 +220,8 @@ class Run:
 
     def _strain(self, tau: float) -> float:
         """½∫η_ζζ² dζ + ½nτ∫η_ζ² dζ, by the elements' curvatures and slopes."""
-        left, right = self.curvatures()
         h, w, t = np.diff(self.state.zeta), self.state.eta[0::2], self.state.eta[1::2]
+        left, right = end_curvatures(self.state.zeta, w, t).T
         bending = float(np.sum(h * (left**2 + left * right + right**2)) / 6.0)
         left, right, middle = t[:-1], t[1:], 1.5 * np.diff(w) / h - 0.25 * (t[1:] + t[:-1])
         squares = 2.0 * (left**2 + right**2 + (left + right) * middle) + 8.0 * middle**2 - left * right

@@ -47,10 +47,15 @@ def wall_peaks(history: ImpactHistory, until: float | None = None) -> WallPeaks 
     """The peaks up to ``until`` (s; ``None``: the end); ``None`` where the wall is rigid, or the path has none."""
     if "peak_force" not in history:
         return None
-    k = int(np.searchsorted(history.time, math.inf if until is None else until * (1.0 + 1e-9), side="right")) - 1
+    k = _instants(history, until) - 1
     names = ("peak_force", "peak_force_time", "peak_penetration", "peak_pressure")
     force, time, penetration, pressure = (float(history.array(name)[k]) for name in names)
     return WallPeaks(force, time, penetration, pressure, *_pushed_at(history, time))
+
+
+def _instants(history: ImpactHistory, until: float | None) -> int:
+    """How many saved instants there are up to ``until``, s; ``None``: all."""
+    return int(np.searchsorted(history.time, math.inf if until is None else until * (1.0 + 1e-9), side="right"))
 
 
 def _pushed_at(history: ImpactHistory, time: float) -> tuple[float, str] | tuple[None, None]:
@@ -88,7 +93,7 @@ def peak_moment(history: ImpactHistory, until: float | None = None) -> PeakMomen
 
     The first instants of all steps are left out: the first touch of a mesh bends it the more the stiffer its contact is
     (κ/ν = 2.5: 1.42 V₀√(EIμ) on every mesh, where the beam has 1)."""
-    count = int(np.searchsorted(history.time, math.inf if until is None else until * (1.0 + 1e-9), side="right"))
+    count = _instants(history, until)
     told = all(name in history for name in ("largest_moment", "largest_moment_place", "largest_midspan_moment"))
     if told and count > 1:
         first = _first_resolved(history, count)
@@ -119,7 +124,7 @@ def moment_left_out(history: ImpactHistory, until: float | None = None) -> float
     impact = history.impact
     if "largest_moment" not in history or not impact.damping or impact.shear_stiffness or impact.wall_stiffness:
         return 0.0
-    count = int(np.searchsorted(history.time, math.inf if until is None else until * (1.0 + 1e-9), side="right"))
+    count = _instants(history, until)
     most = impact.velocity * math.sqrt(impact.bending_stiffness * impact.mass_per_length)
     left_out = history.array("largest_moment", slice(1, _first_resolved(history, count)))
     return min(float(left_out.max(initial=0.0)), most)

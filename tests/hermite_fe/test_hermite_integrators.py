@@ -52,7 +52,7 @@ def bounced(t: float, restitution: float) -> float:
 
 
 def dropped(make: Make, step: float, end: float, restitution: float, **save: Any) -> Trajectory:
-    return integrate(ball(), np.array([DROP]), np.zeros(1), make(step), end, restitution=restitution, **save)
+    return integrate(ball(), np.array([DROP]), np.zeros(1), make(step), end, law=ContactLaw(restitution), **save)
 
 
 @pytest.mark.parametrize("make", WITH_IMPACT_LAW.values(), ids=WITH_IMPACT_LAW)
@@ -92,7 +92,7 @@ def test_lasting_contact_is_second_order_with_reactions_in_the_smooth_motion() -
 @with_impact_law
 def test_an_oscillator_leaves_its_stop_with_the_restitution(make: Make, restitution: float) -> None:
     """Every half period an impact at v = 2A, then amplitude e·A."""
-    run = integrate(oscillator(), np.array([1.0]), np.zeros(1), make(1e-3), 2.0, restitution=restitution)
+    run = integrate(oscillator(), np.array([1.0]), np.zeros(1), make(1e-3), 2.0, law=ContactLaw(restitution))
     after = run.time > math.pi / 4 + 0.01
     assert run.q[after, 0].max() == pytest.approx(restitution, abs=5e-3)
     assert run.impulse[-1, 0] == pytest.approx(2.0 * (1.0 + restitution) * 2.0, rel=5e-3)

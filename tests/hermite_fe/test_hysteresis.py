@@ -13,6 +13,7 @@ from bent_beam.meshes import UniformMesh
 from exudyn_models import ExudynModel
 from hermite_fe import HermiteFE
 from hermite_fe.banded import product
+from hermite_fe.constraints import ContactLaw
 from hermite_fe.contacts import NodeContact
 from hermite_fe.far_fields import GridViscosity
 from hermite_fe.integrators import GeneralizedAlphaPenalty, Midpoint, MoreauJean, SignoriniPosition
@@ -81,8 +82,8 @@ def conserved(model: BeamModel, run: Trajectory) -> None:
 )
 def test_energy_and_momentum_close_to_round_off_and_the_branches_take_their_share(integrator, more) -> None:
     model = modelled(lossy(0.5, 0.2, **more), 10)
-    restitution = 0.5 if isinstance(integrator, MoreauJean) else 0.0
-    run = integrate(model.system, model.displacement, model.velocity, integrator, 0.6, restitution=restitution, save=40)
+    law = ContactLaw(0.5 if isinstance(integrator, MoreauJean) else 0.0)
+    run = integrate(model.system, model.displacement, model.velocity, integrator, 0.6, law=law, save=40)
     conserved(model, run)
     assert run.sums["loss_material"][-1] > 0.05 * run.sums["kinetic_energy"][0]
 

@@ -17,6 +17,7 @@ from bent_beam.meshes import UniformMesh
 from bent_beam_programs.open_benchmark.problem import LADDER, problem
 from bent_beam_programs.open_benchmark.references import reference
 from hermite_fe import HermiteFE
+from hermite_fe.constraints import ContactLaw
 from hermite_fe.contacts import NodeContact
 from hermite_fe.integrators import (
     GeneralizedAlphaPenalty,
@@ -74,9 +75,8 @@ def _ball(scheme: Scheme, refine: int) -> Found:
     contacts = ContactRows(np.array([[0]]), one, np.zeros(1))
     system = System(mass=given["mass"] * one, stiffness=0.0 * one, load=-weight * one, contacts=contacts)
     start, step = np.array([given["height"]]), 0.0137 / refine  # steps that do not divide the flights
-    run = integrate(
-        system, start, np.zeros(1), scheme(step), end, restitution=given["restitution"], save=np.linspace(0, end, 1001)
-    )
+    law, save = ContactLaw(given["restitution"]), np.linspace(0, end, 1001)
+    run = integrate(system, start, np.zeros(1), scheme(step), end, law=law, save=save)
     return _of_system("ball", run, weight * given["height"])
 
 
@@ -113,7 +113,7 @@ def _string(scheme: Scheme, refine: int) -> Found:
     system = System(mass=mass, stiffness=stiffness, contacts=contacts, supports=(0, cells))
     x, save = np.linspace(0.0, 1.0, cells + 1), np.linspace(0.0, end, 801)
     start = 4.0 * given["height"] * x * (1.0 - x)
-    run = integrate(system, start, 0.0 * x, scheme(COURANT / cells), end, restitution=1.0, save=save)
+    run = integrate(system, start, 0.0 * x, scheme(COURANT / cells), end, law=ContactLaw(1.0), save=save)
     return _of_system("string", run)
 
 

@@ -9,6 +9,7 @@ from bent_beam_programs.thesis.sheet import Sheet, item
 from comparison.figures import style
 from hermite_fe import INTEGRATORS
 from hermite_fe.beam import HermiteBeam, shape_functions
+from hermite_fe.constraints import ContactLaw
 from hermite_fe.run import integrate
 from hermite_fe.system import ContactRows, System
 from theory.ladder import BouncingBall
@@ -74,9 +75,9 @@ def ball(step: float, end: float) -> tuple[np.ndarray, np.ndarray]:
         load=np.array([[-GRAVITY]]),
         contacts=ContactRows(dofs=np.array([[0]]), factors=np.array([[1.0]]), gap=np.zeros(1)),
     )
-    law = INTEGRATORS["moreau_jean"](time_step=step, theta=1.0)
+    scheme = INTEGRATORS["moreau_jean"](time_step=step, theta=1.0)
     save = [float(t) for t in np.arange(round(end / step) + 1) * step]
-    run = integrate(system, np.array([HEIGHT]), np.zeros(1), law, end, restitution=RESTITUTION, save=save)
+    run = integrate(system, np.array([HEIGHT]), np.zeros(1), scheme, end, law=ContactLaw(RESTITUTION), save=save)
     return run.time, run.q[:, 0]
 
 

@@ -136,7 +136,7 @@ ROTARY = (16.0, 24.0, 32.0, 50.0, 105.0, 420.0)
 def coupled(contact: str, mass: Mass) -> tuple[float, float]:
     """(coupling c of neighbouring constraints, lift in mm)."""
     lift = thesis("", FLAT, 0.1, contact=contact, mass=mass).lift
-    return impact_coupling(CONTACTS[contact](), mass).neighbour, 1e3 * lift
+    return impact_coupling(CONTACTS[contact](), mass), 1e3 * lift
 
 
 @item("extra-coupling", beside=contact_point.__name__, shown=SHOWN)

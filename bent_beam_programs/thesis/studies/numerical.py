@@ -156,7 +156,7 @@ def contact_point_variants(case: Case) -> list[Variant]:
     """
     base = thesis_settings(case.impact, case.end_time)
     runs: Runs = {
-        f"{NAMES[key]}, {name}": (impact_coupling(POINTS[key](), mass).neighbour, {"contact": key, "mass": mass})
+        f"{NAMES[key]}, {name}": (impact_coupling(POINTS[key](), mass), {"contact": key, "mass": mass})
         for name, mass in MASSES.items()
         for key in NAMES
     }
