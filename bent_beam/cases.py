@@ -179,7 +179,7 @@ def lay_values(tables: dict[str, Any], values: Mapping[str, Any], option: str) -
     keys that say the same."""
     for key, value in values.items():
         _lay(tables, key, value, option)
-    for key in values:  # one that is gone says the same as a later one
+    for key in values:  # a later one that says the same has removed it
         if not _holds(tables, key):
             raise InputError(f"{option} {key}: another {option} says the same in its place; leave one of them out")
 

@@ -92,7 +92,7 @@ def affordable(settings: str, steps: float, nodes: int, instants: int, most: flo
     if steps * nodes > most:
         raise InputError(
             f"{settings} ask for {steps:.3g} steps of {nodes} nodes: {steps * nodes:.2g} steps x nodes, {most:.2g} are "
-            "the most that one run takes; longer steps, larger elements or an earlier end time"
+            "the most that one run takes: take longer steps, larger elements or an earlier end time"
         )
     if instants * nodes > LARGEST_RECORD:
         raise InputError(

@@ -146,7 +146,7 @@ def _gravity(table: _ImpactTable) -> float:
 
 
 def _velocity(table: _ImpactTable, length: float, ends: tuple[str, str]) -> float:
-    """V₀, m/s, of the first touch, where an end is held of the middle."""
+    """V₀, m/s, at the first touch; with a held end, at the middle."""
     ways = {name: getattr(table, name) for name in ("velocity", "drop_height", "angular_speed", "amplitude")}
     way, given = _one_of("impact", ways)
     _only_with("impact.angular_arm", table.angular_arm, "impact.angular_speed", way == "angular_speed")

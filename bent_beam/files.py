@@ -63,7 +63,7 @@ MOST_VARIABLES = 64
 MOST_ATTRIBUTES = 32  # of one object
 MOST_TEXT = 16_000_000  # bytes of one attribute: the nodes and saved instants of the largest run fit
 LARGEST_FILE = 8_000_000_000  # bytes of all values
-ANY_FILE, RATIO = 250_000_000, 20  # bytes that any file may unpack to; beyond, times the file's size
+ANY_FILE, RATIO = 250_000_000, 20  # bytes that any file may unpack to; a larger one to RATIO times its size
 OF_NETCDF = {"DIMENSION_LIST", "REFERENCE_LIST"}  # references between variables and their dimensions, no text
 CONTROL = {"Cc", "Cf", "Cs"}  # of Unicode
 

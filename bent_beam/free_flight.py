@@ -6,8 +6,8 @@ what is left of the total without them, can only fall. Its elastic deflection is
     |u_e(x)| ≤ √(2E C),      C = L³/(105 EI) + 2L/(15 κ_sGA),                                                (1)
 
 C being the compliance of the beam's end with its rigid motion taken out (Σφ_j²/ω_j² of the free–free modes), the second
-part with shear. EI is the relaxed one of a material with Maxwell branches, whose energy may all go to the spring beside
-them.
+part with shear. With Maxwell branches EI is that of the spring beside them: by then they may have relaxed, and it may
+hold all of the energy.
 """
 
 from __future__ import annotations

@@ -52,9 +52,9 @@ def is_stale(file: Path) -> bool:
 
 
 def confirm(file: Path, **words: Any) -> None:
-    """Give ``file`` today's digest; only for who has measured a sample of it again and found it inside its bars.
+    """Give ``file`` today's digest. Call it after a sample of it was measured again and found inside its bars.
 
-    words : entries to replace, whose numbers are the same.
+    words : entries whose text changes; their numbers are the same.
     """
     stored = read(file) | words
     stored |= {"digest": digest_of(stored["packages"], stored["settings"]), "confirmed": today()}

@@ -9,8 +9,9 @@
 Companions: a run of half as many elements and steps. Later also a run with another contact law: no refinement of one
 scheme shows what the scheme does. Without damping late motion does not converge; the companions are then runs whose
 elements, steps and contact laws are drawn from a seed. Such a beam also keeps the short waves that its ends send back
-at once. Grid viscosity absorbs them in a run and in its coarser companion alike, so that an early question has one
-companion without it, on even elements. The same question gets the same numbers, from runs that are kept.
+at once. Grid viscosity absorbs them in a run and in its coarser companion alike, and their difference does not show it:
+an early question has a companion more, without viscosity, on even elements. The same question gets the same numbers,
+from runs that are kept.
 
 A further cause of error is a companion here (another contact law: the method's ``cross_checks``), or, where no
 companion shows it, a known size: at a time in :mod:`comparison.predicting`, of a whole impact in
@@ -43,7 +44,7 @@ WEAK = 3e-5  # η/T*: with less a beam keeps waves that grid viscosity absorbs
 RESOLVES = 0.05  # times 1/√(t/T*): refinement of a whole beam's elements that has ten of them in √(ct)
 EARLIEST = 1e-5  # T*: before, those waves carry less than 0.1 ‰ of the impulse
 OF_SHORT, SHORT = 2.0, 0.05  # times as many elements as for the whole impact, in runs up to this time, T*
-FINEST, SOON = 4.0, 0.025  # … and up to so many before this one: what the first instants did is not resolved by fewer
+FINEST, SOON = 4.0, 0.025  # … and up to so many before this time, T*, to resolve what the first instants left
 INSTANTS, OF_UNIT = 200, 2000  # saved: up to the time asked, evenly in √t; of a whole impact, a T*
 ERROR_BARS = {"drift": (), "quick": (COARSER,), "thorough": (COARSER, FINER)}
 """Resolutions of the companion runs that error bars come from, by name."""

@@ -24,7 +24,7 @@ from comparison.workers import run_all
 
 __all__ = ["Run", "Runs", "bands_of", "first_instants", "kept", "numbers_of", "runs_of"]
 
-LEAST = 1e-4  # of a number of one beam: whole beams drawn at random are off by more where companions agree better
+LEAST = 1e-4  # of a number: its least bar; beams drawn at random were off by as much where companions agreed better
 Reading = Callable[[ImpactHistory], dict[str, Any]]
 """What it returns is JSON-ready and holds the ``energy`` at the end and the ``balance``."""
 Progress = Callable[[float], None]

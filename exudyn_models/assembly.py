@@ -42,7 +42,7 @@ from exudyn_models.solvers import NewtonSolver
 __all__ = ["Chosen", "Layout", "assemble", "lay_out", "settings_of", "stable_step"]
 
 STRETCH = 1e-4  # largest strain under the axial force in the linear limit: lengths are then right to as much
-TAUT = 1e4  # EAΛ²/EI under it: a strain of N/EA moves the front, too, by 7e-4 of what the force does (λ_N at κ/ν = 0.5)
+TAUT = 1e4  # EAΛ²/EI under it: the stretch then moves the front by 7e-4 of what the force itself does (κ/ν = 0.5)
 STRETCH_LATER = 1e-7  # likewise once waves are back: else waves along the beam take up to 1e-2 of the energy
 NEAR = 1e-9  # of the length: a node so near an edge of the wall lies on it
 GREY = [0.35, 0.35, 0.35, 1.0]
@@ -52,7 +52,7 @@ GREY = [0.35, 0.35, 0.35, 1.0]
 class Chosen:
     """The parts of one run, none of them open.
 
-    plastic : of the damping of hits at a thin front; mesh_given : whether somebody asked for the mesh.
+    plastic : share of the damping that takes rebounds at a thin front, 0 to 1; mesh_given : whether somebody asked for the mesh.
     """
 
     mesh: Mesh

@@ -9,7 +9,7 @@ mean of both ends, q̈ the accelerations in equilibrium with all forces (Mq̈ = 
 
 The total impulse is what the momentum of the modelled beam lacks; with held ends it is the sum of the points' impulses.
 These pass through the averages that the scheme applies to accelerations. States are collected after each step and
-summed up many steps at a time: next to all of the time that a run takes is Exudyn's.
+summed up many steps at a time: a run spends nearly all of its time in Exudyn.
 """
 
 from __future__ import annotations
@@ -164,7 +164,7 @@ class Recorder:
 
     def _keep_largest(self, name: str, sizes: Array, where: Array, others: Array, *, anew: bool) -> None:
         """Save with each instant the largest of ``sizes``, ``where`` it was, and the largest of ``others``, of all
-        steps so far; ``anew``: since the saved instant before. Each of shape (rows,), the first row being old."""
+        steps so far; ``anew``: since the saved instant before. Each of shape (rows,); row 0 is the last step of the rows before."""
         rows, begin = np.stack([sizes, where, others], axis=1), 0
         rows[0] = self._largest.pop(name, np.zeros(3))
 

@@ -7,9 +7,9 @@ back where it began. Here the state that a solution *assumed* is compared with t
 has a law of its own (``imposes``: closed is what pushes), that decides, and the states are written over Exudyn's.
 
 - They agree, but for forces below the tolerance: the step is accepted at once;
-- after ``BLOCK`` repetitions in which all connectors follow their gaps at once and no fewer contradict theirs than
-  before, only one at a time does, until fewer do: the one with the largest force, and after ``PERSISTENCE`` repetitions
-  more the last (Murty's rule; as in the Hermite path: Júdice & Pires 1994, Comput. Oper. Res. 21, 587);
+- all connectors follow their gaps at once. When ``BLOCK`` repetitions have not made fewer contradict theirs, one at a
+  time is switched until fewer do: the one with the largest force, and after ``PERSISTENCE`` repetitions more the last
+  (Murty's rule; as in the Hermite path: Júdice & Pires 1994, Comput. Oper. Res. 21, 587);
 - a state comes back that this step had already tried: none is consistent. Of the states that return, the one that
   contradicts itself least is accepted, and counted;
 - the repetitions run out before: the step is not solved.

@@ -188,8 +188,8 @@ def exchange_one(solver: Solver, rows: Rows, p: Array, closing: int, latest: int
 
     The reactions p ≥ 0 minimise ½pᵀGS⁻¹Gᵀp + pᵀ(GS⁻¹b − c). The constraint that is furthest in the wall is closed;
     where a reaction then turns negative the step goes only as far as to the first that vanishes, and that one opens
-    (Lawson & Hanson 1974, Solving Least Squares Problems, ch. 23). No set of closed constraints comes back but by
-    round-off: where the one that was closed last opens at once, signs are judged ten times more leniently.
+    (Lawson & Hanson 1974, Solving Least Squares Problems, ch. 23). A set of closed constraints repeats through
+    round-off alone: where the one that was closed last opens at once, signs are judged ten times more leniently.
     """
     reached, opening, share = solver.reached, -1, 1.0
     for j in range(p.size):

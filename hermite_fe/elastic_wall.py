@@ -10,8 +10,8 @@ and its dashpot acts while p > 0. The mean of R over the step is then
     R̄ = max(0, G + D),     G = ½k (p₊⁺² − p₊²)/Δp,     D = c (p₊⁺ − p₊)/h.
 
 G is a discrete gradient (Gonzalez 1996, J. Nonlinear Sci. 6, 449): G Δp is the change of the spring's energy exactly,
-and (R̄ − G)Δp ≥ 0 is what the dashpot takes, all of the spring's own energy where the beam leaves faster than the wall
-can follow. R̄ is continuous in p⁺: a point that lands within a step does not jump.
+and (R̄ − G)Δp ≥ 0 is what the dashpot takes. Where the beam leaves faster than the wall springs back, that is all of the
+spring's energy. R̄ is continuous in p⁺: a point that lands within a step does not jump.
 
 Forces are f = ∫Nᵀ R̄ dx with the cubic p of the elements (:mod:`hermite_fe.beam`), split where p or p⁺ changes sign, so
 that partly covered elements are integrated as exactly as covered ones: four Gauss points on each piece are exact for W

@@ -138,8 +138,8 @@ class HermiteFE(Composition):
         )
 
     def cross_checks(self, impact: Impact) -> dict[str, Self]:
-        """What stands beside it for error bars, by cause: the impact law of another scheme, without shear with steps
-        twice as long (half of the work; the bar then counts the step twice). None of contact that may pull."""
+        """Companions for error bars, by cause: one with the impact law of another scheme. Without shear its steps are
+        twice as long: it costs half, and the bar counts the error of the steps twice. None of contact that may pull."""
         chosen = self.for_whole_beam(impact)
         integrator, contact = chosen.integrator, chosen.contact
         assert integrator is not None

@@ -21,7 +21,7 @@ Array = NDArray[np.float64]
 ELEMENTS_PER_FRONT = 2.0  # fewer in ℓ deserve a warning
 MOST_ROUNDS = 100  # of the active set in one step; sound runs take ten or so
 LARGEST_LIFT = 1e-2  # of V₀t; r₀ may be too large by as much (docs/numerics.md)
-DAMPED = 4.0  # elements in √(cη): a beam with damping lifts off its wall alike with any scheme (within a fifth); in l_s
+DAMPED = 4.0  # elements within √(cη), or within l_s, from which on all schemes lift a zone alike (within a fifth)
 
 
 def warnings_of_run(

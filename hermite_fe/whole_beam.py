@@ -39,7 +39,7 @@ __all__ = ["ELEMENTS", "begins", "element", "scheme", "step"]
 FEWEST_IN_FRONT = 4.0  # with fewer even elements the early impulse of one point is off by more than 1 %
 ELEMENTS = 200  # of a half beam that is followed until it has left
 SHEARED_ELEMENTS, SHEARED_STEP = 100, 0.0125  # likewise with shear; step, T*, over the element's share of the half beam
-HARD = 2.0  # times as many, and steps: where a front is thin or damping small; in the first instants where it is felt
+HARD = 2.0  # times as many elements and steps: thin fronts, small damping, and first instants in which damping is felt
 THICK, DAMPED = 0.35, 3e-4  # κ/ν and η/T* from which on neither is
 ONE_POINT = 2.0  # κ/ν from which on a whole impact with shear is that of one point
 LARGEST_ELASTIC = 0.25  # of ℓ_k: element before a wall that gives way
@@ -91,9 +91,9 @@ def element(impact: Impact, end_time: float | None) -> float:
         if FEWEST_IN_FRONT * in_half > MOST_ON_A_BEAM:
             earliest = end_time * (FEWEST_IN_FRONT * in_half / MOST_ON_A_BEAM) ** 2
             raise InputError(
-                f"end_time: before {earliest:.3g} s the contact is too short for even elements, which an impact gets "
-                f"that is not one at the middle of a free beam before one long wall (got {end_time!r}); give [mesh], "
-                "or a shorter beam.length"
+                f"end_time: before {earliest:.3g} s the contact is shorter than even elements resolve (got {end_time!r}); "
+                "only a free beam that touches one long wall at its middle gets a graded mesh: give [mesh], or a "
+                "shorter beam.length"
             )
         elements = max(elements, ELEMENTS_IN_FRONT * in_half)
         if damping_is_felt(impact, impact.half_length / elements):

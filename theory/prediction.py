@@ -81,7 +81,7 @@ class Prediction:
             constant in time; where the theory never holds, they are those without damping. Waves that come back from
             the ends make larger ones: they are those of the first instants only.
         valid_from, valid_until: s; half length and impulse are within 2 % between them (`theory.validity`).
-        force_until: s; so is the force until then, a mean over a tenth of the time before and after; then it swings.
+        force_until: s; until then the force, a mean over a tenth of the time before and after, is within 2 %, too.
             `times` beyond keep it; ``bentbeam predict`` leaves it out.
         valid_after: what spoils them before valid_from, one of the names in `theory.validity`; None: nothing does.
         limited_by: what ends it, one of these names.

@@ -39,9 +39,10 @@ __all__ = [
     "rim",
 ]  # fmt: skip
 
-#: t_s after which force, impulse and rim are within 2 % of `first_instants`, and κ/ν of the flattest zone whose impulse
-#: comes so near; ``python -m benchmarks.shear`` prints what they lack.
-FORGOTTEN, FLATTEST_SHEARED = 10.0, 0.05
+#: t_s after which force, impulse and rim are within 2 % of `first_instants` (``python -m benchmarks.shear``).
+FORGOTTEN = 10.0
+#: κ/ν of the flattest zone of which the impulse is, too.
+FLATTEST_SHEARED = 0.05
 NEWTON = 40  # steps from the far side of any root, doublings at first
 LATE = 500.0  # t_s from which on the stopped point's asymptotic series has all that matters
 ABSCISSA = 22.0  # A of Abate and Whitt: discretisation error e^−A
@@ -132,8 +133,8 @@ def first_instants(
     kappa_over_nu: float, solved: ContactParameters, ratio: float, time: float, damping: float = 0.0
 ) -> tuple[float, float, float]:
     """X, l_s, R, V₀√(Sμ), and J, V₀√(Sμ) t_s, at ``time`` > 0, t_s, without loads: until t_c those of the early zone,
-    later R and J of Euler and Bernoulli's zone or of a stopped point with ``ratio`` g and ``damping`` η over t_s, which
-    holds the zone of one point back from the first.
+    later R and J of Euler and Bernoulli's zone or of a stopped point with ``ratio`` g and ``damping`` η over t_s. A point
+    with damping does not spread from the first instant on.
     solved : of this κ/ν, or of one point where damping keeps a zone from spreading."""
     kappa, early = solved.kappa_over_nu, time <= early_until(kappa_over_nu)
     if kappa >= 1.0 and time <= LATE and (damping > 0.0 or not early):

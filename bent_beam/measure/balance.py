@@ -36,7 +36,7 @@ LAST = 0.5  # of the run that is looked at: earlier, the start is not resolved
 @dataclass(frozen=True)
 class Balance:
     """momentum, second_moment : largest residual of the equations above in the second half of the run, over the
-    largest |J| and Σ x_i² J_i (of the latter, what missing momentum at the ends could not cause); points : the
+    largest |J| and Σ x_i² J_i (second_moment less what missing momentum at the ends would explain); points : the
     impulses of the contact points, added up, less J, over J, at the end; initial_energy : (recorded − ½μLV₀²)/½μLV₀²
     at t = 0, where the beam arrives with one velocity; gap_of_push : largest gap at the end of an interval in which a
     contact point pushed, over V₀t, in the second half of the run.

@@ -176,11 +176,15 @@ def first_order(
 
     Each run gives polynomials in δ = ετ; all runs are fitted together, so ε → 0 is reached by the terms in δ², δ³.
 
-    The bar holds the spread (the largest change by a term more, half the window, or one run alone, whose noise counts
-    in proportion to its ε); the largest difference from a companion; what the uniform reaction lacks (of a zone that
-    should lift and does not, ``STUCK_FIRST`` of the load), which moves r₁ by λ₀/√(2/π) of itself at least and λ₁ by
-    about half of that times λ₀/r₀, ``MISSING_FIRST`` times; the shares of :func:`lift_shares`, ``LIFTED_FIRST`` times;
-    what λ₁ inherits from the bars of λ₀ and r₀; and ``FLOOR``.
+    The bar is the sum of
+
+    - the spread: the largest change by a further term, by half the window, or by one run alone, whose noise counts in
+      proportion to its ε;
+    - the largest difference from a companion;
+    - ``MISSING_FIRST`` times what the uniform reaction lacks. That moves r₁ by λ₀/√(2/π) of itself at least, and λ₁ by
+      about half of that times λ₀/r₀. A zone that should lift and does not lacks ``STUCK_FIRST`` of the load;
+    - ``LIFTED_FIRST`` times the shares of :func:`lift_shares`;
+    - what λ₁ inherits from the bars of λ₀ and r₀; and ``FLOOR``.
 
     Raises ``ValueError`` without runs or when saved times differ.
     """

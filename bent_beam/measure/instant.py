@@ -64,8 +64,8 @@ class Instant:
 def instant(history: ImpactHistory, time: float, *, first_spread: bool = False, with_lift: bool = True) -> Instant:
     """Read a run at ``time``, s.
 
-    first_spread : the contact is the first spread of a zone about the middle of a beam before a rigid wall, of which
-        less is assumed of what lies behind the front (:func:`bent_beam.measure.moments.first_front`).
+    first_spread : the contact is the first spread of a zone about the middle of a beam before a rigid wall: its
+        rim is read without assuming how the zone behind it bears (:func:`bent_beam.measure.moments.first_front`).
     with_lift : otherwise the lift is not read, which takes longest.
     """
     k = int(np.argmin(np.abs(history.time - time)))  # saved times are those of steps

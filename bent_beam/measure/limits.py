@@ -15,9 +15,9 @@ LIMITS = {
     "exudyn, explicit or ρ∞ > ½": {"penetration": 4e-3, "pull": 4e-3, "energy": 2e-3, "middle_slope": 1e-9},
 }
 """At least ten times the worst of sixty sound default runs of a path, which ``make coverage`` prints
-(``benchmarks.balances``); ``ELSEWHERE`` for others. Above it: the drift of contact at velocity level (penetration,
-pull), energies of other whole impacts. Means of generalised-α with ρ∞ > ½ swing about their force, explicit steps close
-the energy to their own order alone: ten times the worst of κ/ν = 0.25 and 1.5."""
+(``benchmarks.balances``); ``ELSEWHERE`` for others. Not meant for contact at velocity level, which drifts (penetration,
+pull), and for the energy of other whole impacts. Means of generalised-α with ρ∞ > ½ swing about their force, explicit
+steps close the energy to their own order alone: theirs are ten times the worst of κ/ν = 0.25 and 1.5."""
 IMPLICIT = ("GeneralizedAlpha", "Newmark", "Trapezoidal")
 """Integrators of Exudyn with the limits of "exudyn"; one that is not named has those of the explicit ones."""
 ELSEWHERE = {"penetration": 1e-2, "pull": 0.1, "energy": 1e-2, "middle_slope": 1e-6}

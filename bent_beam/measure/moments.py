@@ -88,8 +88,8 @@ def _pressure(time: Array, outwards: Iterable[tuple[Array, Array, Array]], front
     """Uniform reaction (N/m) over each interval: the slope of the impulse gathered from the centre outwards, by least
     squares over the contact points within :data:`ZONE` of the front.
 
-    Few of these may carry the load at a time, each for its neighbours: a sum over them, divided by the length between
-    the outermost, is off by what one of them carries; the slope hardly feels it.
+    At any time only a few of these points may carry the load, each for its neighbours. A sum over them, divided by the
+    length between the outermost, is off by what one of them carries; the slope hardly is.
     """
     found = np.zeros(time.size)
     for k, (places, upto, own) in enumerate(outwards, 1):
@@ -185,8 +185,8 @@ def first_front(history: ImpactHistory, k: int) -> float:
     are: the centroid of what was pushed over the last tenth of the time, less what the zone behind bears; 0 without a
     push.
 
-    The zone bears as much per length everywhere as within :data:`ZONE` of where the front was at first, where it is
-    summed as it was pushed: nothing is assumed of a zone that damping or its start keeps off the wall.
+    Within :data:`ZONE` of where the front was at first, what was pushed is summed; the rest of the zone is taken to bear
+    as much per length. Nothing is assumed of a zone that damping or its start keeps off the wall.
     """
     if k == 0:
         return 0.0

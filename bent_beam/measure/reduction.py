@@ -16,7 +16,7 @@ Array = NDArray[np.float64]
 CHUNK = 256  # saved instants at once
 OF_RUN, OF_BEAM = 0.02, 0.002  # see _first_resolved
 RESOLVED = 10.0  # elements that a bending wave must have passed before a moment is one of the beam, not of its mesh
-SMOOTH = 3.0  # elements within √(cη), c = √(EI/μ), from which on damping makes a start that elements follow within 3 %
+SMOOTH = 3.0  # elements within √(cη), c = √(EI/μ): so many follow the start of a damped beam within 3 %
 MAY_BE_HELD = 0.01  # of the run: while this lasts, a start may be held
 
 

@@ -46,10 +46,10 @@ class Wall:
     nodes : numbers of the beam's nodes that may touch, ascending; centre : the node at x = 0;
     lengths : of the beam's elements before the wall, 0 of others, (elements,); all are 0 before a stop;
     half : only x ≥ 0 is modelled;
-    first_spread : until when (in end times) nothing but the first spread of the zone moves it: waves are back later;
+    first_spread : until when (in end times) no wave is back from the ends, and the zone spreads by itself;
     lifts : load or damping lifts the zone from the first, or the beam touches in a point: no start is held;
-    plastic : the front is thin, so that nodes that hit must not rebound, and nothing but the first spread moves it:
-        from 0 to 1, the share of the damping for such hits that the run asks for; 0 elsewhere;
+    plastic : share, 0 to 1, of the damping that keeps nodes from rebounding at a thin front, of a zone that spreads for
+        the first time; 0 elsewhere;
     """
 
     nodes: Indices

@@ -13,8 +13,8 @@ Other C and D (measured: docs/exudyn.md):
   makes √(k/μ) t = 2, with the damping ratio of 10 and 3;
 - with shear d Δx = 2√(κ_sGA μ), D = 4√3, takes up shear waves without reflection. Not where η is several τ (κ/ν = 0.1,
   η/T* = 3e-3: e = 0.13 for 0.23);
-- behind a thin front D = 40 makes hits plastic. What is left adds to r₀ like 1/D²: the coarser run of an error bar has
-  the smaller D in proportion. Not with a ``hold``, whose springs would pull nodes that are stopped ahead of the wall.
+- behind a thin front D = 40 makes hits plastic. What is left adds to r₀ like 1/D². The coarser run of an error bar has
+  a smaller D, so that their difference shows it. Not with a ``hold``: its springs pull nodes stopped ahead of the wall.
 
 The springs and dashpots of a wall that gives way, at the nodes, are the wall's own and do not change with the mesh:
 

@@ -172,7 +172,7 @@ def test_an_early_impact_of_another_kind_has_the_impulse_of_one_at_the_middle(ka
 
 def test_an_early_impact_beside_the_middle_is_refused_where_even_elements_would_be_too_many() -> None:
     beside = Impact.dimensionless(0.4, length=60.0).replace(first_touch=3.0)
-    with pytest.raises(ValueError, match=r"^end_time: before .* s the contact is too short for even elements"):
+    with pytest.raises(ValueError, match=r"^end_time: before .* s the contact is shorter than even elements resolve"):
         HermiteFE().simulate(beside, end_time=1e-6)
     given = HermiteFE(mesh=UniformMesh(0.1)).simulate(beside, end_time=1e-6)  # a mesh that is given is taken
     assert given.array("total_impulse")[-1] >= 0.0
