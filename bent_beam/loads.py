@@ -18,8 +18,8 @@ To add a load:
 2. Each path that models it: its name in ``MODELLED`` (``hermite_fe/model.py``, ``exudyn_models/method.py``) and, of a
    load without a term, its force, of which half a beam takes half at the middle: ``nodal_loads`` in
    ``hermite_fe/model.py``; ``assemble`` in ``exudyn_models/assembly.py``.
-3. ``first_spread`` in ``comparison/questions.py``, where it is uneven over the zone: the half length is then that of the
-   outermost point that pushes, and not of the centroid of the pushes.
+3. ``first_spread`` in ``comparison/questions.py``, where it is uneven over the zone: the half length is then that
+   of the outermost point that pushes, and not of the centroid of the pushes.
 4. A test (``tests/measure/test_balance.py`` has the balances), rows in ``docs/guide/problems.md`` and
    ``docs/scope.md``, a line in ``CHANGELOG.md``, and the stored numbers confirmed (``make stored``: some minutes).
 

@@ -120,8 +120,8 @@ def whole_numbers(made: Runs) -> dict[str, Number | Band]:
 
 
 def _shifted(made: Runs) -> float:
-    """What companions change of the beginning of the last contact, T*. It counts beside its end, on which runs may agree
-    by chance; at most by the time between two contacts that are one in another run."""
+    """What companions change of the beginning of the last contact, T*. It counts beside its end, on which runs may
+    agree by chance; at most by the time between two contacts that are one in another run."""
     own, shifts = made.run.reading["contacts"], 0.0
     for companion in made.companions.values():
         other = companion.reading["contacts"]

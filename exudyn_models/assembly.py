@@ -52,7 +52,8 @@ GREY = [0.35, 0.35, 0.35, 1.0]
 class Chosen:
     """The parts of one run, none of them open.
 
-    plastic : share of the damping that takes rebounds at a thin front, 0 to 1; mesh_given : whether somebody asked for the mesh.
+    plastic : share of the damping that takes rebounds at a thin front, 0 to 1; mesh_given : whether somebody
+        asked for the mesh.
     """
 
     mesh: Mesh

@@ -164,7 +164,8 @@ class Recorder:
 
     def _keep_largest(self, name: str, sizes: Array, where: Array, others: Array, *, anew: bool) -> None:
         """Save with each instant the largest of ``sizes``, ``where`` it was, and the largest of ``others``, of all
-        steps so far; ``anew``: since the saved instant before. Each of shape (rows,); row 0 is the last step of the rows before."""
+        steps so far; ``anew``: since the saved instant before. Each of shape (rows,); row 0 is the
+        last step of the rows before."""
         rows, begin = np.stack([sizes, where, others], axis=1), 0
         rows[0] = self._largest.pop(name, np.zeros(3))
 

@@ -91,9 +91,9 @@ def element(impact: Impact, end_time: float | None) -> float:
         if FEWEST_IN_FRONT * in_half > MOST_ON_A_BEAM:
             earliest = end_time * (FEWEST_IN_FRONT * in_half / MOST_ON_A_BEAM) ** 2
             raise InputError(
-                f"end_time: before {earliest:.3g} s the contact is shorter than even elements resolve (got {end_time!r}); "
-                "only a free beam that touches one long wall at its middle gets a graded mesh: give [mesh], or a "
-                "shorter beam.length"
+                f"end_time: before {earliest:.3g} s the contact is shorter than even elements resolve (got "
+                f"{end_time!r}); only a free beam that touches one long wall at its middle gets a graded mesh: give "
+                "[mesh], or a shorter beam.length"
             )
         elements = max(elements, ELEMENTS_IN_FRONT * in_half)
         if damping_is_felt(impact, impact.half_length / elements):

@@ -133,8 +133,8 @@ def first_instants(
     kappa_over_nu: float, solved: ContactParameters, ratio: float, time: float, damping: float = 0.0
 ) -> tuple[float, float, float]:
     """X, l_s, R, V₀√(Sμ), and J, V₀√(Sμ) t_s, at ``time`` > 0, t_s, without loads: until t_c those of the early zone,
-    later R and J of Euler and Bernoulli's zone or of a stopped point with ``ratio`` g and ``damping`` η over t_s. A point
-    with damping does not spread from the first instant on.
+    later R and J of Euler and Bernoulli's zone or of a stopped point with ``ratio`` g and ``damping`` η over t_s. A
+    point with damping does not spread from the first instant on.
     solved : of this κ/ν, or of one point where damping keeps a zone from spreading."""
     kappa, early = solved.kappa_over_nu, time <= early_until(kappa_over_nu)
     if kappa >= 1.0 and time <= LATE and (damping > 0.0 or not early):

@@ -185,8 +185,8 @@ def first_front(history: ImpactHistory, k: int) -> float:
     are: the centroid of what was pushed over the last tenth of the time, less what the zone behind bears; 0 without a
     push.
 
-    Within :data:`ZONE` of where the front was at first, what was pushed is summed; the rest of the zone is taken to bear
-    as much per length. Nothing is assumed of a zone that damping or its start keeps off the wall.
+    Within :data:`ZONE` of where the front was at first, what was pushed is summed; the rest of the zone is taken to
+    bear as much per length. Nothing is assumed of a zone that damping or its start keeps off the wall.
     """
     if k == 0:
         return 0.0

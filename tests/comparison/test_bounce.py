@@ -177,7 +177,10 @@ def test_progress_is_told_within_a_run_that_is_kept(tmp_path) -> None:
 
 def test_what_companions_say_at_other_damping_ratios_is_passed_on_and_their_seconds_count() -> None:
     impact = problem(2.0, 0.0)
-    found = bounce(dataclasses.replace(case_of(impact), damping_stated=False), HermiteFE(mesh=UniformMesh(0.1)))
+    told: list[float] = []
+    unstated = dataclasses.replace(case_of(impact), damping_stated=False)
+    found = bounce(unstated, HermiteFE(mesh=UniformMesh(0.1)), progress=told.append)
+    assert told == sorted(told) and told[-1] == pytest.approx(1.0)
     assert found.seconds == pytest.approx(sum(one.runs.seconds for one in found.over.values()))
     other = next(one for one in found.over.values() if one.runs is not found.runs)
     lost = dataclasses.replace(other, runs=dataclasses.replace(other.runs, lost=["no companion run"]))

@@ -37,6 +37,10 @@ def test_a_run_keeps_its_momentum_and_a_falsified_impulse_energy_or_gap_shows_in
     assert balance_of(ImpactHistory.of(data.isel(time=slice(2, None)))).initial_energy is None
     in_wall = balance_of(ImpactHistory.of(data.assign(gap=data["gap"] - 0.01)))
     assert in_wall.penetration > 0.03 and any("in the wall" in line for line in in_wall.warnings)
+    assert sound.middle_slope < 1e-9
+    largest = float(np.abs(data["slope"]).max())
+    turned = balance_of(ImpactHistory.of(data.assign(slope=data["slope"] + 0.1 * largest)))
+    assert turned.middle_slope == pytest.approx(0.1, rel=0.15) and turned.warnings
     if "acceleration" in loads:
         worked = balance_of(ImpactHistory.of(data.assign(work_of_loads=1.1 * data["work_of_loads"])))
         assert worked.energy > 1e-2 and any("not accounted for" in line for line in worked.warnings)
