@@ -91,13 +91,6 @@ def test_a_stopped_beam_gathers_its_exact_impulse_until_the_first_release():
     assert abs(let_go - release) <= 2.0 * step
 
 
-def test_in_other_units_a_run_to_separation_ends_when_the_same_beam_has_left():
-    light = Impact.whole_beam(2.0, relative_damping=1e-2)
-    heavy = Impact(2.0, 8.0, 6.0, 2.0 / 3.0, 1.0 / 6.0, damping=0.18)  # T* = 18
-    ends = [COARSE.simulate_to_separation(one, save=200).time[-1] / one.slow_time_scale for one in (light, heavy)]
-    assert heavy.kappa_over_nu == pytest.approx(2.0) and ends[0] == pytest.approx(ends[1], abs=0.01) != 8.0
-
-
 def test_a_rocking_beam_is_the_mirror_image_of_one_rocking_the_other_way():
     impact = Impact.whole_beam(0.5, relative_damping=1e-2).replace(rotation=0.5, first_touch=0.2)
     right = COARSE.simulate_to_separation(impact, save=200)
