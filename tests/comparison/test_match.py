@@ -232,6 +232,12 @@ def test_a_bad_methods_file_is_refused_in_one_line(tmp_path, text, message):
         methods_from_file(file)
 
 
+def test_a_bow_free_of_stress_is_let_go_by_a_tension_as_it_flies() -> None:
+    """μ a₀ = −N K in free flight: α = −κN."""
+    pulled, told = questions([HermiteFE()], [0.4], [(None, 0.0, 0.0, 2.0), (1.0, 0.0, 0.0, 2.0)])
+    assert (pulled.first, told.first) == ((-0.8, 0.0, 0.0, 2.0), (1.0, 0.0, 0.0, 2.0))
+
+
 def test_the_default_rows_are_the_cases_of_the_thesis_that_touch_with_a_zone() -> None:
     cases = [load_case(file).impact.kappa_over_nu for file in CASES.glob("thesis_K*.toml")]
     assert sorted(THESIS_KAPPAS) == pytest.approx(sorted(kappa for kappa in cases if kappa < 1.0))
