@@ -25,6 +25,7 @@ from comparison.workers import run_all
 __all__ = ["Run", "Runs", "bands_of", "first_instants", "kept", "numbers_of", "runs_of"]
 
 LEAST = 1e-4  # of a number: its least bar; beams drawn at random were off by as much where companions agreed better
+LIGHT, LEAST_LIGHT = 3e-4, 1e-3  # … of a beam with less damping, η/T*, once waves have run along it
 Reading = Callable[[ImpactHistory], dict[str, Any]]
 """What it returns is JSON-ready and holds the ``energy`` at the end and the ``balance``."""
 Progress = Callable[[float], None]
@@ -163,8 +164,9 @@ def numbers_of(
 
     Late and without damping a number is the mean of all runs, its bar two standard deviations.
     """
-    found, extra = dict[str, Number](), known or {}
-    scattered = runs.question.late and not converges(runs.question.impact)
+    found, extra, asked = dict[str, Number](), known or {}, runs.question
+    scattered = asked.late and not converges(asked.impact)
+    light = asked.late and not asked.impact.hysteretic_loss and asked.impact.relative_damping < LIGHT
     for name in names:
         value = runs.run.reading[name]
         others = {cause: run.reading[name] for cause, run in runs.companions.items()}
@@ -173,7 +175,7 @@ def numbers_of(
             parts = {"no_damping": 2.0 * statistics.stdev(values), **extra.get(name, {})}
             found[name] = Number(statistics.fmean(values), sum(parts.values()), parts=parts)
         else:
-            found[name] = number_of(value, others, extra.get(name), least=LEAST)
+            found[name] = number_of(value, others, extra.get(name), least=LEAST_LIGHT if light else LEAST)
     return found
 
 

@@ -2,7 +2,7 @@
 // A whole impact as numbers with bars: which runs, and what they say together (bent_beam/measure/numbers.py).
 const Answer = (() => {
   const { abs, max, min, round, sqrt } = Math;
-  const { factor: FACTOR, least: LEAST, ratios: RATIOS } = BARS; // of bentbeam bounce
+  const { factor: FACTOR, ratios: RATIOS } = BARS; // of bentbeam bounce
   const DRAWN = [140, 92, 124, 80, 108, 132]; // elements of an ensemble; nodes rebound by 0, ½ and 1 of their velocity
   const NAMES = ["restitution", "impulse", "lastContact", "moment", "force"];
   const quick = ({ wall }) => ({ elements: 32, steps: wall ? 1000 : 1600, longest: 3 }); // for a first picture
@@ -45,7 +45,8 @@ const Answer = (() => {
       const shifts = FACTOR * Object.values(others).reduce((sum, run) => sum + shift(run), 0);
       const known = { lastContact: 0.5 / steps + shifts, force: landing };
       const sum = bar + (known[name] || 0);
-      return [name, { value: base[name], bar: sum && max(sum, LEAST * abs(base[name])) }];
+      const least = p.eta < BARS.light ? BARS.leastLight : BARS.least;
+      return [name, { value: base[name], bar: sum && max(sum, least * abs(base[name])) }];
     }));
   }
 
