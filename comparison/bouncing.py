@@ -25,7 +25,7 @@ from bent_beam.method import Method, for_whole_beam, separation_times
 from comparison.bounced import Bounce
 from comparison.doubts import energy_at_end
 from comparison.questions import Question
-from comparison.runs import Runs, bands_of, first_instants, numbers_of, runs_of
+from comparison.runs import Runs, bands_of, numbers_of, runs_of, unseen_of_moment
 from comparison.store import RunStore
 from comparison.whole_numbers import FINAL, NUMBERS
 
@@ -112,7 +112,7 @@ def whole_numbers(made: Runs) -> dict[str, Number | Band]:
     known["restitution"] = {"saved_instants": reading["drift"]}
     known["push"] = {"saved_instants": reading["push_rise"]}
     known["last_contact"]["contacts"] = _shifted(made)
-    known["peak_moment"] = {"first_instants": first_instants(reading)}
+    known["peak_moment"] = unseen_of_moment(made)
     found = dict(bands_of(made, names) if made.question.band else numbers_of(made, names, known))
     if not all(run.reading["left"] for run in made.every):
         found |= {name: Number() for name in FINAL}

@@ -30,7 +30,7 @@ from comparison.bouncing import bounce
 from comparison.doubts import doubts, energy_at_end, wide_bars
 from comparison.questions import Question
 from comparison.readable import milliseconds, write_answer
-from comparison.runs import Runs, first_instants, numbers_of, runs_of
+from comparison.runs import Runs, numbers_of, runs_of, unseen_of_moment
 from comparison.store import RunStore
 from comparison.texts import prediction_text
 from theory import Prediction, predict
@@ -50,7 +50,6 @@ AGREE = 0.02  # of the theory's number, beyond the error bar
 LATEST = 20.0  # T*: later times are not simulated
 ROUND_OFF = 1e-9  # of the mean force so far: less is none
 VISCOSITY = 2e-3  # of an early number: what grid viscosity and start do to a run and its companion alike
-CHATTER = 0.01  # of the largest moment, without damping: what single nodes add to it
 
 Progress = Callable[[float], None]
 
@@ -72,7 +71,7 @@ def instant_numbers(runs: Runs) -> dict[str, Number]:
     known["half_contact_length"]["element"] = reading["element"]
     if question.late and converges(question.impact):
         known["impulse"]["about_the_time"] = _crossings(runs)
-    known["peak_moment"]["first_instants"] = first_instants(reading)
+    known["peak_moment"] = unseen_of_moment(runs)
     if not question.late:
         impact = question.impact
         # a load, damping, or a wall that gives way may lift the zone rightly; else the scheme has thrown it off, as it
@@ -82,8 +81,6 @@ def instant_numbers(runs: Runs) -> dict[str, Number]:
             known[name]["grid_viscosity"] = VISCOSITY * abs(reading[name] or 0.0)
         for name, share in zip(("impulse", "half_contact_length"), lift_shares(0.0 if rightly else reading["lift"])):
             known[name]["lift"] = share * (reading[name] or 0.0)
-    if not converges(question.impact):
-        known["peak_moment"]["chatter"] = CHATTER * reading["peak_moment"]
     return numbers_of(runs, OF_INSTANT, known)
 
 

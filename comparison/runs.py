@@ -18,14 +18,15 @@ from bent_beam.measure.balance import Balance
 from bent_beam.measure.numbers import FACTOR, Band, Number, number_of
 from bent_beam.method import Method, settings_of
 from comparison.doubts import loss_warnings
-from comparison.questions import Question
+from comparison.questions import SHORT, Question
 from comparison.store import RunStore, code_of, source_of
 from comparison.workers import run_all
 
-__all__ = ["Run", "Runs", "bands_of", "first_instants", "kept", "numbers_of", "runs_of"]
+__all__ = ["Run", "Runs", "bands_of", "kept", "numbers_of", "runs_of", "unseen_of_moment"]
 
 LEAST = 1e-4  # of a number: its least bar; beams drawn at random were off by as much where companions agreed better
 LIGHT, LEAST_LIGHT = 3e-4, 1e-3  # … of a beam with less damping, η/T*, once waves have run along it
+CHATTER = 0.01  # of the largest moment
 Reading = Callable[[ImpactHistory], dict[str, Any]]
 """What it returns is JSON-ready and holds the ``energy`` at the end and the ``balance``."""
 Progress = Callable[[float], None]
@@ -164,9 +165,8 @@ def numbers_of(
 
     Late and without damping a number is the mean of all runs, its bar two standard deviations.
     """
-    found, extra, asked = dict[str, Number](), known or {}, runs.question
-    scattered = asked.late and not converges(asked.impact)
-    light = asked.late and not asked.impact.hysteretic_loss and asked.impact.relative_damping < LIGHT
+    found, extra, least = dict[str, Number](), known or {}, LEAST_LIGHT if _is_light(runs.question) else LEAST
+    scattered = runs.question.late and not converges(runs.question.impact)
     for name in names:
         value = runs.run.reading[name]
         others = {cause: run.reading[name] for cause, run in runs.companions.items()}
@@ -175,13 +175,27 @@ def numbers_of(
             parts = {"no_damping": 2.0 * statistics.stdev(values), **extra.get(name, {})}
             found[name] = Number(statistics.fmean(values), sum(parts.values()), parts=parts)
         else:
-            found[name] = number_of(value, others, extra.get(name), least=LEAST_LIGHT if light else LEAST)
+            found[name] = number_of(value, others, extra.get(name), least=least)
     return found
 
 
-def first_instants(reading: Mapping[str, Any]) -> float:
-    """What the largest moment may be more, having been at first, where a mesh does not resolve it."""
-    return FACTOR * max(reading["moment_left_out"] - reading["peak_moment"], 0.0)
+def unseen_of_moment(runs: Runs) -> dict[str, float]:
+    """Errors of the largest moment that no companion shows, by cause: what it may have been in first instants that no
+    mesh resolves; what single nodes add to it on a zone without damping, or with hardly any once waves have run along
+    the beam."""
+    reading, impact = runs.run.reading, runs.question.impact
+    hardly = _is_light(runs.question) and impact.kappa_over_nu < 1.0 and impact.wall_stiffness is None
+    return {
+        "first_instants": FACTOR * max(reading["moment_left_out"] - reading["peak_moment"], 0.0),
+        "chatter": CHATTER * reading["peak_moment"] if hardly or not converges(impact) else 0.0,
+    }
+
+
+def _is_light(question: Question) -> bool:
+    """Whether a beam has hardly any damping, and waves have run along it."""
+    impact, until = question.impact, question.until
+    ran = until is None or until > SHORT * impact.slow_time_scale
+    return ran and not impact.hysteretic_loss and impact.relative_damping < LIGHT
 
 
 def bands_of(runs: Runs, names: Sequence[str]) -> dict[str, Band | Number]:

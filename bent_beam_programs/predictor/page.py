@@ -13,7 +13,7 @@ from bent_beam_programs.predictor.coefficients import coefficients
 from comparison.bouncing import DAMPING_RATIOS
 from comparison.doubts import LEAST_RESTITUTION, STEEP, WIDE
 from comparison.readable import BEAMS, BEFORE, LIMITS, REGIMES
-from comparison.runs import LEAST, LEAST_LIGHT, LIGHT
+from comparison.runs import CHATTER, LEAST, LEAST_LIGHT, LIGHT
 from theory import contact_parameters, shear, validity, wall_prediction
 from theory.second_order import second_order
 
@@ -27,7 +27,8 @@ WORDS = {"regimes": REGIMES, "limits": LIMITS, "before": BEFORE, "beams": BEAMS}
 
 DOUBTS = {"wide": WIDE, "least_restitution": LEAST_RESTITUTION, "steep": STEEP}
 """From when on ``bentbeam bounce`` warns."""
-BARS = {"factor": FACTOR, "least": LEAST, "light": LIGHT, "leastLight": LEAST_LIGHT, "ratios": DAMPING_RATIOS}
+BARS = {"factor": FACTOR, "least": LEAST, "light": LIGHT, "leastLight": LEAST_LIGHT, "chatter": CHATTER,
+        "ratios": DAMPING_RATIOS}  # fmt: skip
 """Of its error bars, and the damping ratios that it takes where none is stated."""
 
 

@@ -56,10 +56,11 @@ def test_curves_that_cross_at_the_time_asked_do_not_agree() -> None:
 
 
 def test_what_a_run_and_its_companion_share_stays_in_the_bar() -> None:
-    """Grid viscosity of an early run, 2e-3; chatter of single nodes in the moment of an undamped one, 1e-2."""
+    """Grid viscosity of an early run, 2e-3; chatter of single nodes in a moment without damping, 1e-2."""
     early = instant_numbers(runs(TIME, TIME, until=EARLY))
     assert early["impulse"].bar == early["peak_moment"].bar == pytest.approx(2e-3)
     assert instant_numbers(runs(TIME, TIME))["peak_moment"].bar == 0.0
+    assert instant_numbers(runs(TIME, TIME, damping=2e-4))["peak_moment"].bar == pytest.approx(1e-2)
     assert instant_numbers(runs(TIME, TIME, TIME, damping=0.0))["peak_moment"].bar == pytest.approx(1e-2)
 
 

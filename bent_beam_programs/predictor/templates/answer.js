@@ -43,9 +43,10 @@ const Answer = (() => {
       const { elements, steps } = resolution(p), landing = p.wall ? p.wall.c / elements : 0; // all dashpots of a node
       const shift = ({ begin, apart }) => min(abs(begin - base.begin), apart, base.apart); // they end it together by chance
       const shifts = FACTOR * Object.values(others).reduce((sum, run) => sum + shift(run), 0);
-      const known = { lastContact: 0.5 / steps + shifts, force: landing };
+      const light = p.eta < BARS.light, chatter = light && p.kappa < 1 && !p.wall ? BARS.chatter * base.moment : 0;
+      const known = { lastContact: 0.5 / steps + shifts, force: landing, moment: chatter };
       const sum = bar + (known[name] || 0);
-      const least = p.eta < BARS.light ? BARS.leastLight : BARS.least;
+      const least = light ? BARS.leastLight : BARS.least;
       return [name, { value: base[name], bar: sum && max(sum, least * abs(base[name])) }];
     }));
   }
