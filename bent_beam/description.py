@@ -145,6 +145,12 @@ def _gravity(table: _ImpactTable) -> float:
     return GRAVITY if table.drop_height is not None else 0.0
 
 
+def _towards_wall(table: _ImpactTable) -> float:
+    """Gravity along the wall's normal, m/s²; none at a right angle, where the cosine of radians leaves 6e-17."""
+    share = 0.0 if abs(table.gravity_angle) == 90.0 else math.cos(math.radians(table.gravity_angle))
+    return _gravity(table) * share
+
+
 def _velocity(table: _ImpactTable, length: float, ends: tuple[str, str]) -> float:
     """V₀, m/s, at the first touch; with a held end, at the middle."""
     ways = {name: getattr(table, name) for name in ("velocity", "drop_height", "angular_speed", "amplitude")}
@@ -167,7 +173,7 @@ def _velocity(table: _ImpactTable, length: float, ends: tuple[str, str]) -> floa
                 f"impact.angular_arm has no effect on a beam that swings about its hinge (got {table.angular_arm!r})"
             )
         return given * (length / 2.0 if table.angular_arm is None else table.angular_arm)
-    along = _gravity(table) * math.cos(math.radians(table.gravity_angle))
+    along = _towards_wall(table)
     if along <= 0.0:
         raise InputError(
             f"impact.drop_height = {given!r} needs gravity towards the wall "
@@ -189,7 +195,7 @@ def _free_flight(table: _ImpactTable, values: Mapping[str, Any]) -> float:
     if not gravity and not force:
         return 0.0
     bent = values["bending_stiffness"] * values["fourth_derivative"] + force * values["curvature"]
-    return float(gravity * math.cos(math.radians(table.gravity_angle)) - bent / values["mass_per_length"])
+    return float(_towards_wall(table) - bent / values["mass_per_length"])
 
 
 def _wall(wall: WallTable, mass_per_length: float) -> dict[str, Any]:

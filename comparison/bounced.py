@@ -130,7 +130,7 @@ class Bounce:
             own = f"a hysteretic loss of {loss:g} and no other damping" if loss else "no damping"
             found.append(
                 f"the beam has {own} of its own: the outcome is irregular and does not converge, so a band is "
-                "given; state [beam] damping (or --damping) for numbers"
+                "given; state a damping for numbers"
             )
         if not self.left:
             pressed = self.impact.net_load > 0.0

@@ -39,7 +39,7 @@ def doubts(impact: Impact, section: Section | None) -> list[str]:
             f"the bow's own slope at its ends is {slope:.2g}: theory and simulation are for small slopes (at 0.5 the "
             "force is about 10 % larger)"
         )
-    alike = not (impact.supported or impact.off_centre or impact.wall_in_part)
+    alike = not (impact.off_centre or impact.wall_in_part)
     if impact.relative_curvature == 0.0 and alike and impact.wall_stiffness is None:
         found.append(
             "a straight beam touches a rigid wall with its whole length at once: its rebound is that of the contact "

@@ -242,5 +242,5 @@ def _agreement(checked: Sequence[float], prediction: Prediction, runs: Runs, fir
             all(a is not None and b.measured and abs(b.known - a) <= b.spread + AGREE * abs(a) for a, b in pairs)
         )
     spans = [list(span) for both, span in groupby(range(len(agree)), key=agree.__getitem__) if both]
-    longest = max(spans, key=len, default=None)
+    longest = max(spans, key=lambda span: checked[span[-1]] - checked[span[0]], default=None)
     return {"from": checked[longest[0]], "until": checked[longest[-1]]} if longest else None

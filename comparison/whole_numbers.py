@@ -28,7 +28,7 @@ class WholeNumber(NamedTuple):
 
 WHOLE = {
     "restitution": WholeNumber("", "", "coefficient of restitution", "restitution", final=True),
-    "impulse": WholeNumber("impulse", "N s", "impulse", "impulse"),
+    "impulse": WholeNumber("impulse", "N s", "impulse", "impulse", final=True),
     "last_contact": WholeNumber("time", "s", "last contact", "last contact", final=True),
     "peak_moment": WholeNumber("moment", "N m", "largest bending moment", "largest moment"),
     "peak_stress": WholeNumber("", "Pa", "largest stress", "largest stress"),

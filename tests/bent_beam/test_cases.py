@@ -96,6 +96,7 @@ def test_the_bow_by_its_sagitta_or_its_dogleg():
     [
         ({"drop_height": 0.5, "gravity": 9.0}, 3.0, 9.0),  # it falls on
         ({"velocity": 1.0, "gravity": 9.0, "gravity_angle": 60.0}, 1.0, 4.5),
+        ({"velocity": 1.0, "gravity": 9.0, "gravity_angle": 90.0}, 1.0, 0.0),
         ({"angular_speed": 0.2}, 3.0, 0.0),
         ({"angular_speed": 0.2, "angular_arm": 5.0}, 1.0, 0.0),
     ],
@@ -103,7 +104,7 @@ def test_the_bow_by_its_sagitta_or_its_dogleg():
 def test_a_beam_arrives_as_it_falls_or_swings(impact, velocity, acceleration):
     found = case(impact=impact).impact
     assert found.velocity == pytest.approx(velocity, rel=1e-14)
-    assert found.acceleration == pytest.approx(acceleration, rel=1e-12)
+    assert found.acceleration == pytest.approx(acceleration, rel=1e-12, abs=0.0)
 
 
 def test_a_wall_that_gives_way_and_the_ends_are_what_the_tables_say():
@@ -155,6 +156,7 @@ def test_damping_ratio_and_loss_factor_are_the_same_time_constant():
         ({"impact": {}}, "impact.velocity is required"),
         ({"impact": {"velocity": 1.0, "drop_height": 1.0}}, "impact.velocity = 1.0 and impact.drop_height"),
         ({"impact": {"drop_height": 1.0, "gravity_angle": 90.0001}}, "needs gravity towards the wall"),
+        ({"impact": {"drop_height": 1.0, "gravity_angle": 90.0}}, "needs gravity towards the wall"),
         ({"beam": {"curvature": 0.1, "loss_factor": 0.1}}, "loss_frequency is required"),
         ({"beam": {"curvature": 0.1, "hysteretic_loss": 0.1}}, "hysteretic_loss .got 0.1 alone.* is at [0-9.]+ Hz"),
         ({"beam": {"curvature": 0.1, "hysteretic_loss": 0.1, "loss_frequency": 1e9}}, "loss_frequency .*got 10{9}.0"),

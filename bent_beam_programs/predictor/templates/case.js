@@ -95,7 +95,7 @@ const Case = (() => {
     "impact.velocity": (i, v) => { i.approach = "velocity"; i.velocity = v; },
     "impact.drop_height": (i, v) => { i.approach = "drop"; i.drop_height = v; },
     "impact.gravity": (i, v) => { i.gravity = v; },
-    "impact.gravity_angle": (i, v) => { i.gravity *= Math.cos(v * Math.PI / 180); },
+    "impact.gravity_angle": (i, v) => { i.gravity *= Math.abs(v) === 90 ? 0 : Math.cos(v * Math.PI / 180); },
     "impact.acceleration": (i, v) => { const b = Beam.impact(i); i.load = (v - b.acceleration) * b.mass; },
     "wall.curvature": (i, v) => { i.wall_curvature = v; },
     "wall.stiffness": (i, v) => { i.wall_stiffness = v; },
