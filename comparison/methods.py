@@ -76,7 +76,7 @@ def methods_from_file(*files: Path) -> list[Method]:
     found = [method for file in files for method in _methods(file)]
     labels = [method.label for method in found]
     if twice := next((label for i, label in enumerate(labels) if label in labels[:i]), None):
-        raise InputError(f"methods file {files[-1]}: label {twice!r} is given twice")
+        raise InputError(f"methods file {', '.join(map(str, files))}: label {twice!r} is given twice")
     return found
 
 

@@ -25,8 +25,9 @@ from comparison.workers import run_all
 __all__ = ["Run", "Runs", "bands_of", "kept", "numbers_of", "runs_of", "unseen_of_moment"]
 
 LEAST = 1e-4  # of a number: its least bar; beams drawn at random were off by as much where companions agreed better
-LIGHT, LEAST_LIGHT = 3e-4, 1e-3  # … of a beam with less damping, η/T*, once waves have run along it
-CHATTER = 0.01  # of the largest moment
+LIGHT = 3e-4  # η/T* below which a beam has hardly any damping …
+LEAST_LIGHT = 1e-3  # … and its late numbers this least bar, for the same reason
+CHATTER = 0.01  # of the largest moment: what single nodes add to it on a zone of hardly any damping
 Reading = Callable[[ImpactHistory], dict[str, Any]]
 """What it returns is JSON-ready and holds the ``energy`` at the end and the ``balance``."""
 Progress = Callable[[float], None]
@@ -75,13 +76,13 @@ class Runs:
     def warnings(self) -> list[str]:
         """What the run says, what steps and mesh took of its energy, what is out of balance, and which companions are
         missing."""
-        reading = self.run.reading
-        return [
-            *self.run.warnings,
-            *loss_warnings(reading["energy"]),
-            *Balance(**reading["balance"]).warnings,
-            *self.lost,
-        ]
+        lost = loss_warnings(self.run.reading["energy"])
+        return [*self.run.warnings, *lost, *self.balance.warnings, *self.lost]
+
+    @property
+    def balance(self) -> Balance:
+        """Of the run itself."""
+        return Balance(**self.run.reading["balance"])
 
     def part(self, of: Callable[[dict[str, Any]], dict[str, Any]]) -> Runs:
         """The same runs with a part of their readings."""
@@ -163,7 +164,8 @@ def numbers_of(
 ) -> dict[str, Number]:
     """Numbers by name from the readings. known : of a name, cause → size of what no companion shows.
 
-    Late and without damping a number is the mean of all runs, its bar two standard deviations.
+    Late and without damping a number is the mean of all runs, its bar two standard deviations. A bar is
+    :data:`LEAST` of its number at least, or :data:`LEAST_LIGHT`.
     """
     found, extra, least = dict[str, Number](), known or {}, LEAST_LIGHT if _is_light(runs.question) else LEAST
     scattered = runs.question.late and not converges(runs.question.impact)

@@ -11,7 +11,6 @@ from typing import Any
 from bent_beam.cases import Case
 from bent_beam.history import REFLECTED, ImpactHistory
 from bent_beam.hysteresis import converges
-from bent_beam.measure.balance import Balance
 from bent_beam.measure.estimators import leading_order
 from bent_beam.measure.moments import moments
 from bent_beam.measure.numbers import MISSING, Number
@@ -58,7 +57,7 @@ class Simulated:
         end = float(history.time[-1]) if until is None else until
         infinite = predict(impact, [end]) if comparable(impact) else None
         row = infinite.times[0] if infinite and infinite.times[0].valid else None
-        energy, balance = energy_at_end(history), Balance(**reading["balance"])
+        energy, balance = energy_at_end(history), self.runs.balance
         largest, unit = reading, {"length": 1.0, "time": 1.0}
         if until is None:
             largest, unit = reading["whole"], scales(impact)

@@ -166,9 +166,9 @@ def _near(asked: Problem, seed: int) -> str:
     draw = random.Random(f"{seed} {asked.id}")
     if not asked.is_front:
         found = IDS[asked.kind].fullmatch(asked.id)
-        words = found.groups() if found else ()
-        while True:  # until all numbers lie in the range of the kind
-            numbers = [float(f"{float(word) * draw.uniform(0.85, 1.15):.4g}") for word in words]
+        assert found is not None  # a problem has an id of its kind
+        while True:  # until all numbers lie in the range of the kind, as those asked for do
+            numbers = [float(f"{float(word) * draw.uniform(0.85, 1.15):.4g}") for word in found.groups()]
             try:
                 return problem("-".join([asked.kind, *(f"{value:.12g}" for value in numbers)])).id
             except InputError:

@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 
 from bent_beam import Impact
 from bent_beam.checks import affordable
-from bent_beam.fields import declared
+from bent_beam.errors import SimulationError
+from bent_beam.fields import Quantity, declared
 from bent_beam.loads import ENDS, loads_of, lowest_mode, unmodelled
 from bent_beam.tables import TABLES
 from self_similar_fe import SelfSimilarFE
@@ -144,3 +145,12 @@ def test_what_a_run_keeps_is_instants_times_nodes_and_what_it_does_is_steps_time
     for steps, instants, message in ((1.1e4, 10_000, "mesh ask for"), (1e4, 60_001, "save asks for 60001 instants")):
         with pytest.raises(ValueError, match=message):
             affordable("mesh", steps, 1_000, instants, most=1e7)
+
+
+def test_a_whole_number_obeys_its_bounds_and_an_error_without_advice_says_none():
+    count = Quantity("", "of somebody's", least=2, most=5)
+    assert [count.checked_number("n", value, whole=True) for value in (2, 5)] == [2, 5]
+    for value in (1, 6):
+        with pytest.raises(ValueError, match=rf"n must .*got {value}"):
+            count.checked_number("n", value, whole=True)
+    assert "try" not in str(SimulationError("it diverged", time=1.0)) != str(SimulationError("it diverged"))

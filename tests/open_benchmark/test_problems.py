@@ -161,6 +161,10 @@ def left_with(name, restitution, drift=0.0):
     return Result("completed", "", asked, {}, asked.end_time * share, push)
 
 
+def test_a_problem_of_first_order_has_a_base_however_its_number_is_written():
+    assert problem(str(problem("first-1e15-1-0-0").base_id)).kappa_over_nu == 1e15
+
+
 @pytest.mark.parametrize("name", SHIPPED)
 def test_a_restitution_is_held_against_its_reference_within_bars_and_tolerance(name):
     asked = problem(name)
