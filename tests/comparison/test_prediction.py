@@ -2,6 +2,7 @@
 
 import json
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,8 @@ from histories import rod
 
 from bent_beam import Impact
 from bent_beam.cases import Case, load_case
+from bent_beam.measure.numbers import Number
+from comparison import predicting
 from comparison.doubts import doubts
 from comparison.predicting import CHECKED, COMPARED, LATEST, predict_case
 from comparison.readable import number_from
@@ -122,6 +125,15 @@ def test_a_pull_as_large_as_the_buckling_load_leaves_half_of_a_bow_and_a_tenth_o
     assert "(at rest to about 50 % of its height)" in said[1.0][0] and said[0.09] == []
     held = Impact(4.0, 1.0, 2.0, 0.1, 1.0, axial_force=np.pi**2, tension_direction="tangent", acceleration=0.0)
     assert doubts(held, None) == []  # by other forces
+
+
+def test_theory_and_simulation_agree_over_the_longest_time_and_not_at_the_most_instants(monkeypatch) -> None:
+    told = iter([1.0, 1.0, 1.0, 2.0, 1.0, 1.0])
+    monkeypatch.setattr(predicting, "instant_numbers", lambda _: dict.fromkeys(COMPARED, Number(next(told), 0.01)))
+    theory: Any = SimpleNamespace(times=[SimpleNamespace(half_contact_length=1.0, impulse=1.0)] * 6)
+    runs: Any = SimpleNamespace(part=lambda _: None)
+    found = predicting._agreement([0.1, 0.2, 0.3, 0.4, 0.6, 1.0], theory, runs, 0)
+    assert found == {"from": 0.6, "until": 1.0}
 
 
 def test_text_names_the_force_on_a_wall_that_gives_way_and_what_makes_the_beam_another() -> None:
