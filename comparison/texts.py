@@ -113,13 +113,14 @@ def _agreement(document: dict[str, Any]) -> list[str]:
 
 def _largest(document: dict[str, Any]) -> list[str]:
     """The largest stress, or without a section the largest moment, each value with its time range."""
-    name, title, unit = largest_of(document["peak_stress"])
     last, whole = max(document["times"], key=lambda row: row["time"]), document["whole_impact"]
-    scale, unit = unit_for(unit, [document[name]])
+    name, title, unit = largest_of(document["peak_stress"] or (whole or {}).get("peak_stress"))
+    known = document[name]
+    scale, unit = unit_for(unit, [(whole or {}).get(name, {}).get("value") if known is None else known])
     lines = [f"Largest {title}, {unit}:"]
     if document["valid_until"]:
         until = f"until {milliseconds(document['valid_until'])}, when {LIMITS[document['limited_by']]}"
-        lines.append(f"  {until} (theory): {document[name] * scale:.4g}")
+        lines.append(f"  {until} (theory): " + ("not known" if known is None else f"{known * scale:.4g}"))
     if last.get("simulation", {}).get(name):
         until = f"until {milliseconds(last['time'])}"
         lines.append(f"  {until} (simulation): {_scaled(last['simulation'][name], scale)}")

@@ -47,7 +47,8 @@ class PredictionAtTime:
     """The impact at one time after first contact, SI units.
 
     None where a value does not exist: the reaction at t = 0 (it starts as 1/√t), lengths, forces and impulse once
-    the first-order correction has outgrown the leading order or the contact the beam, stress without a section.
+    the first-order correction has outgrown the leading order or the contact the beam, stress without a section,
+    moment and stress of a damped point where the moment ahead of it may be the largest: it has no closed form.
 
     Attributes:
         contact_force_per_length: the uniform reaction in the zone, N/m.
@@ -64,8 +65,8 @@ class PredictionAtTime:
     reaction: float | None
     contact_force_per_length: float | None
     impulse: float | None
-    peak_moment: float
-    peak_moment_place: float
+    peak_moment: float | None
+    peak_moment_place: float | None
     peak_stress: float | None
     valid: bool
     spoiled_by: str | None
@@ -78,8 +79,9 @@ class Prediction:
     Attributes:
         lambda1, r1: with everything; `lambda_axial`, `r_axial` per unit of `axial`.
         peak_moment, peak_stress: the largest at leading order until `valid_until`, N m, Pa. Without damping they are
-            constant in time; where the theory never holds, they are those without damping. Waves that come back from
-            the ends make larger ones: they are those of the first instants only.
+            constant in time; where the theory never holds, they are those without damping. None as in
+            `PredictionAtTime`. Waves that come back from the ends make larger ones: they are those of the first
+            instants only.
         valid_from, valid_until: s; half length and impulse are within 2 % between them (`theory.validity`).
         force_until: s; until then the force, a mean over a tenth of the time before and after, is within 2 %, too.
             `times` beyond keep it; ``bentbeam predict`` leaves it out.
@@ -112,7 +114,7 @@ class Prediction:
     r1: float
     lambda_axial: float
     r_axial: float
-    peak_moment: float
+    peak_moment: float | None
     peak_stress: float | None
     yields: bool | None
     valid_from: float
@@ -159,7 +161,7 @@ def predict(impact: Impact, times: Iterable[float] | float = (), *, section: Sec
     loads = (impact.epsilon_alpha, impact.epsilon_psi, impact.epsilon_chi)
     solved = contact_parameters(impact.kappa_over_nu, *loads, axial=impact.epsilon_axial)
     bending = _Bending(impact, peak_moment_of(solved), section)
-    peak, _ = bending.peak()
+    peak: float | None = bending.peak()[0]
     stress = bending.stress(peak)
     limit = None if section is None else section.yield_stress
     yields = None if stress is None or limit is None else stress > limit
@@ -228,9 +230,9 @@ class _Bending:
             return at_contact, 0.0
         return (ahead, self.moments.place) if ahead >= abs(before) else (abs(before), math.inf)
 
-    def stress(self, moment: float) -> float | None:
+    def stress(self, moment: float | None) -> float | None:
         """Largest |σ| (Pa) of a moment together with the axial force."""
-        if self.section is None:
+        if self.section is None or moment is None:
             return None
         return moment / self.section.section_modulus + abs(self.impact.axial_force) / self.section.area
 
@@ -257,6 +259,7 @@ def _at_time(
     length = root * math.sqrt(t) * spread
     exists = spread >= 0.0 and push > 0.0 and length <= impact.half_length
     moment, place = bending.peak(of_moment)
+    peak = None if of_moment < 1.0 and 0.0 < place < math.inf else moment
     force = front * (of_force * solved.r0 + of_impulse * solved.r1 * tau)
     impulse = 2.0 * front * math.sqrt(t) * (of_impulse * solved.r0 + of_acceleration * solved.r1 * tau / 3.0)
     impulse += 4.0 * uniform * root * t**1.5 * (solved.lambda0 / 3.0 + solved.lambda1 * tau / 5.0)
@@ -276,9 +279,9 @@ def _at_time(
         reaction=force / math.sqrt(t) + 2.0 * length * uniform if exists and t > 0.0 else None,
         contact_force_per_length=uniform if exists else None,
         impulse=impulse if exists else None,
-        peak_moment=moment,
-        peak_moment_place=min(place * root * math.sqrt(t) if t > 0.0 else 0.0, impact.half_length),
-        peak_stress=bending.stress(moment),
+        peak_moment=peak,
+        peak_moment_place=None if peak is None else min(place * root * math.sqrt(t) if t else 0.0, impact.half_length),
+        peak_stress=bending.stress(peak),
         valid=spoiled_by is None,
         spoiled_by=spoiled_by,
     )

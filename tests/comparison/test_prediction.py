@@ -154,6 +154,12 @@ def test_theory_only_simulates_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     assert found["whole_impact"] is None
 
 
+def test_a_moment_that_the_theory_does_not_know_is_said_to_be_missing() -> None:
+    damped = Impact.whole_beam(2.0, relative_damping=1e-3).replace(natural_curvature=1.0)
+    found = predict_case(case_of(damped), [1e-3], theory_only=True)
+    assert found.to_dict()["peak_moment"] is None and "(theory): not known" in str(found)
+
+
 def test_the_tables_of_the_case_are_those_of_the_simulation(monkeypatch: pytest.MonkeyPatch) -> None:
     used, simulate = [], HermiteFE.simulate
 

@@ -97,6 +97,7 @@ def test_page_is_the_theory_on_random_beams() -> None:
             assert at["exists"] == (row.impulse is not None)
             if row.impulse is None:
                 continue
+            assert (at["moment"] is None) == (row.peak_moment is None)
             root = math.sqrt(impact.wave_constant * row.time)
             momentum = impact.mass_per_length * impact.velocity * root
             for name, value, unit in (
@@ -105,8 +106,8 @@ def test_page_is_the_theory_on_random_beams() -> None:
                 ("impulse", row.impulse, momentum),
                 ("moment", row.peak_moment, 0.0),
             ):
-                assert at[name] == pytest.approx(value, rel=1e-6, abs=1e-6 * unit), name
-                compared += 1
+                assert value is None or at[name] == pytest.approx(value, rel=1e-6, abs=1e-6 * unit), name
+                compared += value is not None
     assert {"shear", "wall", "damping", "waves back from the ends", "slope", "first-order correction"} <= causes
     assert compared > 450
 

@@ -258,6 +258,15 @@ def test_bending_moment_and_stress() -> None:
     assert pulled.yields is False
 
 
+def test_the_moment_ahead_of_a_damped_point_has_no_number() -> None:
+    # at first a quarter of that at the contact, in the end 0.56 of it: where it may be the largest nothing is said
+    for elastic, known in ((0.0, True), (0.4, False), (1.0, False), (-3.0, True)):  # curvature of the bow, of 2
+        point = Impact.whole_beam(2.0, relative_damping=1e-3).replace(natural_curvature=2.0 - elastic)
+        (row,) = predict(point, 1e-3).times
+        assert (row.peak_moment is not None, row.peak_moment_place is not None) == (known, known)
+        assert predict(point.replace(damping=0.0), 1e-3).times[0].peak_moment is not None
+
+
 def test_tension_and_a_curved_wall_act_through_the_groups() -> None:
     # a straight beam on a bulging wall is the bent beam on a flat one
     straight = predict(PIPE.replace(curvature=0.0, wall_curvature=-PIPE.curvature), [0.1]).times[0]

@@ -16,10 +16,13 @@ const Instants = (() => {
     return { ...solved, moment, stress, limits, reflected: Limits.ends(solved) * timeScale };
   }
 
-  /** Largest bending moment, N m, at most; `factor` of that at the contact. */
+  /** Largest bending moment, N m; of a damped point with `factor` of that at the contact, null where that ahead of it,
+      which has no closed form, may be larger. */
   function bending({ b }, { moment }, factor) {
     const unit = b.velocity * sqrt(b.stiffness * b.mass), before = b.stiffness * (b.naturalCurvature - b.curvature);
-    return Math.max(abs(before + unit * moment.contact * factor), abs(before - unit * moment.ahead * factor), abs(before));
+    const known = Math.max(abs(before + unit * moment.contact * factor), abs(before));
+    const ahead = abs(before - unit * moment.ahead * factor);
+    return ahead > known && factor < 1 ? null : Math.max(known, ahead);
   }
 
   /** Half length (shear lengths) of a sheared zone, long after shear waves: X − coth X = gap, by halving. */
@@ -70,7 +73,7 @@ const Instants = (() => {
     }
     force += 2 * halfLength * pressure;
     const moment = bending(p, contact, single ? Point.erf(sqrt(min(age, 100))) : 1);
-    return { exists, halfLength, force, impulse, moment, stress: Beam.stress(b, moment) };
+    return { exists, halfLength, force, impulse, moment, stress: moment === null ? null : Beam.stress(b, moment) };
   }
 
   return { solve, at };

@@ -26,8 +26,8 @@ const Words = (() => {
   function atEnd(theory) {
     const { until: t, forceUntil } = theory.limits, { halfLength, force, impulse, stress } = Instants.at(theory, t);
     return `Then, at ${quantity("time", t, 3)}, the half contact length is ${quantity("place", halfLength, 3)}, `
-      + (forceUntil < t ? "" : `the force ${quantity("force", force, 3)}, `) + `the impulse ${quantity("impulse", impulse, 3)}, `
-      + `the largest stress so far ${quantity("stress", stress, 3)}.`;
+      + (forceUntil < t ? "" : `the force ${quantity("force", force, 3)}, `) + `the impulse ${quantity("impulse", impulse, 3)}`
+      + (stress === null ? "." : `, the largest stress so far ${quantity("stress", stress, 3)}.`);
   }
 
   const percent = (ratio) => `${text(100 * ratio, 2)} %`;
