@@ -198,7 +198,7 @@ def bounce_text(found: dict[str, Any], *, verbose: bool = False) -> str:
             value = [str(number.scaled(100.0)), "%"]
         rows.append([about.title + within, *value, "" if name == "peak_stress" else str(number)])
     name, what, unit = largest_of(found["peak_stress"])
-    damped = found["over_damping"] or []
+    damped, left = found["over_damping"] or [], str(number_from(found["last_contact"])) != "-"
     scale, unit = unit_for(unit, [row[name]["value"] for row in damped])
     columns = 4 if verbose else 3
     lines = [
@@ -208,7 +208,7 @@ def bounce_text(found: dict[str, Any], *, verbose: bool = False) -> str:
         "± is the error bar; a band is mean ± standard deviation of runs. Energies are shares of the initial energy",
         "and the work of the loads, at the last contact: the end of the first hit, after which the beam is off the",
         "wall for a period of its first mode at least. The largest moment and stress are those of the whole motion,",
-        f"from 0 to {1e3 * found['span'][1]:.4g} ms: a period of the lowest mode after the last contact.",
+        f"from 0 to {1e3 * found['span'][1]:.4g} ms{': a period of the lowest mode after the last contact' * left}.",
         _hardest(found),
         *(f"Largest {what}, {unit}, {line}." for line in _over_damping(damped, name, scale)),
         *(_checks(found) if verbose else []),

@@ -83,6 +83,7 @@ def test_the_bar_of_the_last_contact_holds_the_shift_of_its_beginning(other, shi
 def test_bars_over_a_tenth_of_a_number_are_wide_and_a_small_restitution_counts_as_more() -> None:
     assert not wide_bars({"restitution": Number(0.1, 0.02), "peak_moment": Number(1.0, 0.05)})
     assert not wide_bars({"impulse": Band(1.0, 1.0, 24), "peak_force": Number(), "half_contact_length": Number(1.0)})
+    assert not wide_bars({"half_contact_length": Number(0.0, 0.01)})  # one point, within an element
     (said,) = wide_bars(
         {"restitution": Number(0.1, 0.04), "impulse": Number(-1.0, 0.2), "peak_moment": Number(1.0, 0.0)}
     )
