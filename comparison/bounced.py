@@ -59,9 +59,8 @@ class Bounce:
     def outcome(self) -> WholeImpact:
         """What the run itself came to."""
         reading = self.runs.run.reading
-        contacts = tuple((float(begin), float(end)) for begin, end in reading["contacts"])
-        names = WholeImpact.__dataclass_fields__.keys() - {"contacts"}
-        return WholeImpact(**{name: reading[name] for name in names}, contacts=contacts)
+        pairs = {name: tuple((float(a), float(b)) for a, b in reading[name]) for name in ("contacts", "returns")}
+        return WholeImpact(**{name: reading[name] for name in WholeImpact.__dataclass_fields__} | pairs)
 
     @property
     def left(self) -> bool:

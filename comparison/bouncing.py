@@ -113,6 +113,8 @@ def whole_numbers(made: Runs) -> dict[str, Number | Band]:
     known["push"] = {"saved_instants": reading["push_rise"]}
     known["last_contact"]["contacts"] = _shifted(made)
     known["peak_moment"] = unseen_of_moment(made)
+    if not made.question.band:
+        known["last_contact"]["returns"] = _may_return(made, numbers_of(made, ("restitution",), known)["restitution"])
     found = dict(bands_of(made, names) if made.question.band else numbers_of(made, names, known))
     if not all(run.reading["left"] for run in made.every):
         found |= {name: Number() for name in FINAL}
@@ -128,6 +130,14 @@ def _shifted(made: Runs) -> float:
         apart = [found[-1][0] - found[-2][1] for found in (own, other) if len(found) > 1]
         shifts += FACTOR * min([abs(own[-1][0] - other[-1][0]), *apart])
     return shifts
+
+
+def _may_return(made: Runs, restitution: Number) -> float:
+    """How much later the last contact may be, T*: until the beam last misses the wall by less than twice the bar of its
+    restitution, a velocity. The mean velocity has that bar; waves move a point of the beam as much again."""
+    last = made.run.reading["last_contact"]
+    near = [time for time, speed in made.run.reading["returns"] if speed <= 2.0 * (restitution.bar or 0.0)]
+    return max(near, default=last) - last
 
 
 def follow_hits(impact: Impact, method: Method, count: int, *, first: ImpactHistory) -> list[Hit]:

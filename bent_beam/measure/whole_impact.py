@@ -47,7 +47,8 @@ class WholeImpact:
         middle. drift : what the loads change the restitution by in half of it.
     until : end of the span that the largest moment and force are of.
     contacts : begin and end of each contact, separations shorter than the shortest ignored; the last ends at the last
-        contact.
+        contact. returns : when the beam is nearest to the wall again, within a period after the last contact, and the
+        mean velocity since then by which it misses the wall, V₀.
     peak_moment_place : |x|/ℓ. moment_left_out : what the moment may have been at first
         (:func:`bent_beam.measure.reduction.moment_left_out`).
     translation, vibration, dissipated : shares of the initial energy and the work of the loads, altogether one; the
@@ -85,6 +86,7 @@ class WholeImpact:
     drift: float
     until: float
     contacts: tuple[tuple[float, float], ...]
+    returns: tuple[tuple[float, float], ...]
     energy_defect: float
     energy_gain: float
     left: bool
@@ -157,10 +159,20 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
         drift=0.5 * abs(load) * float(time[end] - time[end - 1]),
         until=until / unit,
         contacts=tuple((float(time[i]) / unit, 0.5 * float(time[j - 1] + time[j]) / unit) for i, j, _ in hit),
+        returns=_returns(history, end),
         energy_defect=abs(history.energy_budget()["defect"]) / initial,
         energy_gain=float(np.max(np.diff(energy + held - work), initial=0.0)) / initial,
         left=left,
     )
+
+
+def _returns(history: ImpactHistory, end: int) -> tuple[tuple[float, float], ...]:
+    """`WholeImpact.returns` after a contact that ends at saved instant ``end``."""
+    unit, speed = history.impact.slow_time_scale, history.impact.velocity
+    stop = int(np.searchsorted(history.time, history.time[end] + LOWEST_PERIOD * unit))
+    gap, since = history.array("gap", slice(end, stop)).min(axis=1), history.time[end:stop] - history.time[end]
+    near = np.flatnonzero((gap[1:-1] < gap[:-2]) & (gap[1:-1] <= gap[2:])) + 1
+    return tuple((float(history.time[end + k]) / unit, float(gap[k] / since[k]) / speed) for k in near)
 
 
 def _rise_between(values: Array, k: int) -> float:

@@ -80,6 +80,16 @@ def test_the_bar_of_the_last_contact_holds_the_shift_of_its_beginning(other, shi
     assert number.parts["contacts"] == pytest.approx(FACTOR * shift, abs=0.05)  # saved every 0.05 T*
 
 
+def test_a_beam_that_leaves_slowly_may_touch_again_where_twice_the_bar_of_its_velocity_brings_it_to_the_wall() -> None:
+    """It misses the wall by 0.05 V₀ at 1 T*, by 0.08 V₀ at 1.5 T*; its restitution has bars of 0.0125, 0.0375, 0.05."""
+    for change, later in ((0.01, 0.0), (0.03, 0.2), (0.04, 0.7)):
+        one = whole_reading(pushed_until(0.3, again=0.5)) | {"returns": ((1.0, 0.05), (1.5, 0.08))}
+        other = one | {"restitution": one["restitution"] + change}
+        found = whole_numbers(dataclasses.replace(runs(one, other), question=Question(problem(2.0, 1e-3), COARSE)))
+        number = found["last_contact"]
+        assert isinstance(number, Number) and number.parts["returns"] == pytest.approx(later, abs=0.03)
+
+
 def test_bars_over_a_tenth_of_a_number_are_wide_and_a_small_restitution_counts_as_more() -> None:
     assert not wide_bars({"restitution": Number(0.1, 0.02), "peak_moment": Number(1.0, 0.05)})
     assert not wide_bars({"impulse": Band(1.0, 1.0, 24), "peak_force": Number(), "half_contact_length": Number(1.0)})

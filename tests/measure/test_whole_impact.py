@@ -114,7 +114,8 @@ def test_in_other_units_an_impact_is_the_same_and_what_springs_of_the_wall_hold_
     fields = {name: unit * run.array(name) for name, unit in UNITS.items()}
     other = history_of(18.0 * run.time, 3.0 * run.positions(0), impact=HEAVY, **fields)
     one, same = (dataclasses.asdict(whole_impact(history, shortest=shortest)) for history in (run, other))
-    assert np.ravel(same.pop("contacts")) == pytest.approx(np.ravel(one.pop("contacts")))
+    for pairs in ("contacts", "returns"):
+        assert np.ravel(same.pop(pairs)) == pytest.approx(np.ravel(one.pop(pairs)))
     same["push_time"] = one["push_time"]  # a steady force is largest anywhere
     assert same == pytest.approx(one | {"supplied": 6.0 * one["supplied"]})
     for hit, alike in zip(hits(run), hits(other), strict=True):
@@ -251,6 +252,14 @@ def test_a_run_is_over_a_period_of_the_lowest_mode_after_its_last_push() -> None
     assert not over(6.0 + 0.99 * LOWEST_PERIOD, 1.0, lambda: gone)
     assert over(6.0 + 1.01 * LOWEST_PERIOD, 1.0, lambda: gone)
     assert not over(8.0, 1.0, lambda: gone, closed=True)
+
+
+def test_a_beam_returns_where_it_is_nearest_to_the_wall_and_as_slowly_as_it_has_left_since() -> None:
+    """Off the wall from 0.3 T* on, at 1 − cos 4πt/T* + 0.1: nearest at 0.5 and 1 T*; at 1.5 T* a period is over."""
+    run = pushed_until(0.3)
+    gap = np.where(run.time > 0.3, 1.1 - np.cos(4.0 * np.pi * run.time), 0.0)[:, None] * np.ones(5)
+    returns = whole_impact(ImpactHistory.of(run.dataset.assign(gap=(("time", "x"), gap)))).returns
+    assert np.array(returns) == pytest.approx(np.array([[0.5, 0.5], [1.0, 0.1 / 0.7]]), rel=1e-6)
 
 
 def test_the_largest_push_begins_when_the_wall_begins_to_push_within_its_window() -> None:

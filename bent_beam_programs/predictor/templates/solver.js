@@ -68,6 +68,14 @@ const Solver = (() => {
     return speed >= 0 && away >= sqrt(2 * elastic * compliance) && gap.every((g, j) => g > q[PAD + 2 * j]);
   }
 
+  /** When the beam is nearest to the wall again after its last contact, and the mean velocity by which it misses it. */
+  function nearest(frames, gap, last) {
+    const after = frames.filter(({ t }) => t > last && t < last + PERIOD)
+      .map(({ t, u }) => [t, u.reduce((least, value, j) => min(least, gap[j] - value), Infinity)]);
+    return after.filter(([, g], i) => i && i < after.length - 1 && g < after[i - 1][1] && g <= after[i + 1][1])
+      .map(([t, g]) => [t, g / (t - last)]);
+  }
+
   /** The impact of p = {kappa, eta, shear, turning, load, tension, pull, before, wall} until the beam has left, with
       `elements` a half beam and `steps` a T*. load: μa₀; tension: N; pull: what it makes of the bow at the ends;
       before: moment of the bow; wall: {k, c} or null. Numbers are those of the first hit; moment and force the largest
@@ -119,7 +127,8 @@ const Solver = (() => {
     const restitution = over ? hit.impulse / 2 - (p.load + p.pull) * hit.lastContact - 1 : null;
     const until = min(found.lastContact + PERIOD, frames[frames.length - 1].t);
     const lastContact = over ? hit.lastContact : null;
-    return { ...found, impulse: hit.impulse, begin: hit.begin, apart: hit.apart, lastContact, restitution, until, frames, early };
+    const ends = { begin: hit.begin, apart: hit.apart, lastContact, returns: nearest(frames, m.gap, hit.lastContact) };
+    return { ...found, ...ends, impulse: hit.impulse, restitution, until, frames, early };
   }
 
   return { simulate };
