@@ -11,7 +11,7 @@ from typing import Any, ClassVar
 
 __all__ = ["FACTOR", "LEAST", "MISSING", "Band", "Number", "number_of"]
 
-FACTOR = 1.5  # of what a companion changes; `make coverage` draws fresh beams and methods to hold it against
+FACTOR = 1.25  # of what a companion changes; `make coverage` draws fresh beams and methods to hold it against
 LEAST = 1e-5  # of a number, unless no companion changes it at all: closer agreement than this is chance
 
 LARGE, SMALL = 1e6, 1e-4  # beyond, numbers are written with a power of ten
