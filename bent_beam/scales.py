@@ -48,7 +48,10 @@ class Scales(Part):
                        instead=": take the Hermite path, or damping in its place")] = 0.0  # fmt: skip
     loss_frequency: Annotated[float | None, Quantity("Hz", "where EI and hysteretic_loss hold", above=0.0)] = None
     wall_curvature: Annotated[float, Quantity("1/m", "K_w, positive where the wall is concave; less than K")] = 0.0
-    natural_curvature: Annotated[float | None, Quantity("1/m", "stress-free K; the whole bow's unless given")] = None
+    natural_curvature: Annotated[
+        float | None,
+        Quantity("1/m", "stress-free K, the whole bow's unless given; the rest is held, and adds its moment"),
+    ] = None
     rotation: Annotated[float, Load("rad/s", "rocking about the middle (runs of the full beam)", powers=(1, 1))] = 0.0
     first_touch: Annotated[float, Quantity("m", "the bow's apex from the middle (runs of the full beam)")] = 0.0
     opposite_wall: Annotated[float | None, Quantity("m", "distance of a second wall behind the apex", above=0.0)] = None
