@@ -36,6 +36,7 @@ RUNS = 24  # of a band
 SEED = 15
 DAMPING_RATIOS = (0.0002, 0.002, 0.02)  # of the first mode: bare steel, a bar as it is held, with joints
 LONGEST, INSTANTS = 100.0, 200  # T*, of the longest run that follows hits; saved a T* of it
+RETURNS = 2.0  # bars of the restitution: the mean velocity has one, waves move a point of the beam as much again
 LARGEST_KAPPA = 100.0  # beyond, and long before, the beam touches in one point: infinity is calculated as this
 
 
@@ -133,10 +134,12 @@ def _shifted(made: Runs) -> float:
 
 
 def _may_return(made: Runs, restitution: Number) -> float:
-    """How much later the last contact may be, T*: until the beam last misses the wall by less than twice the bar of its
-    restitution, a velocity. The mean velocity has that bar; waves move a point of the beam as much again."""
-    last = made.run.reading["last_contact"]
-    near = [time for time, speed in made.run.reading["returns"] if speed <= 2.0 * (restitution.bar or 0.0)]
+    """How much later the last contact may be, T*: until the beam last misses the wall by less than :data:`RETURNS` bars
+    of its restitution, a velocity. 0 of beams that are held or meet a plate, which others of its points pass."""
+    impact, last = made.question.impact, made.run.reading["last_contact"]
+    if impact.supported or impact.wall_in_part:
+        return 0.0
+    near = [time for time, speed in made.run.reading["returns"] if speed <= RETURNS * (restitution.bar or 0.0)]
     return max(near, default=last) - last
 
 

@@ -100,10 +100,11 @@ def loss_warnings(energy: Energies) -> list[str]:
 
 
 def wide_bars(numbers: Mapping[str, Any]) -> list[str]:
-    """A warning of the numbers whose error bars are wide; a band is none, nor is one point's half length of 0."""
+    """A warning of the numbers whose error bars are wide; a band is none, nor is a half length of 0, of one point."""
     wide = []
     for name, title in MAY_BE_WIDE.items():
         number, least = numbers.get(name), LEAST_RESTITUTION if name == "restitution" else 0.0
-        if isinstance(number, Number) and number.value and number.bar is not None:
+        one_point = name == "half_contact_length" and number is not None and number.value == 0.0
+        if isinstance(number, Number) and number.value is not None and number.bar is not None and not one_point:
             wide += [title] * (number.bar > WIDE * max(abs(number.value), least))
     return [f"wide error bars: {', '.join(wide)}; elements, steps and contact law decide here"] if wide else []

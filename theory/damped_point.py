@@ -11,6 +11,8 @@ impulse by a₀ (m = 2) are
 
     Γ(m + 1/2)/Γ(m + 1/4) T^{−1/4} ₁F₁(−1/4; m + 1/4; −T),      M/M₀ = e^{−T}/√(πT) + erf √T.
 
+The elastic moment ahead of it is 0.24 of that at the contact at first, 0.56 in the end, less 1.4 η/t of itself.
+
 A zone (κ/ν < 1) starts as one point, too. Its elastic moment is erf √T of that of a point, and it spreads once that is
 κ/ν, at T_p = erf⁻¹(κ/ν)². From then on damping has no closed form.
 """
@@ -22,6 +24,8 @@ from numpy.typing import ArrayLike
 from scipy.special import erf, erfinv, gamma, hyp1f1
 
 from theory._fresnel import FloatArray
+
+AHEAD_FROM = 75.0  # η, after which the elastic moment ahead of the point is within 2 % of that without damping
 
 
 def reaction_ratio(age: ArrayLike) -> FloatArray:

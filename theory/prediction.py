@@ -48,7 +48,8 @@ class PredictionAtTime:
 
     None where a value does not exist: the reaction at t = 0 (it starts as 1/√t), lengths, forces and impulse once
     the first-order correction has outgrown the leading order or the contact the beam, stress without a section,
-    moment and stress of a damped point where the moment ahead of it may be the largest: it has no closed form.
+    moment and stress of a damped point in its first 75 η, where the moment ahead of it may be the largest: it has no
+    closed form.
 
     Attributes:
         contact_force_per_length: the uniform reaction in the zone, N/m.
@@ -217,7 +218,7 @@ class _Bending:
         """Largest |M| (N m) and its place x/√(ct).
 
         `factor` multiplies the moment at the contact of a damped point. Ahead of it this is an upper bound: the moment
-        there is a quarter of that at the contact at first and 0.56 of it in the end, as without damping.
+        there is 0.24 of that at the contact at first and 0.56 of it in the end, as without damping.
         """
         impact = self.impact
         unit = impact.velocity * math.sqrt(impact.bending_stiffness * impact.mass_per_length)
@@ -241,8 +242,9 @@ def _at_time(
     impact: Impact, solved: ContactParameters, bending: _Bending, t: float, spoiled_by: str | None
 ) -> PredictionAtTime:
     tau = t / impact.time_scale
-    of_force = of_impulse = of_moment = of_acceleration = 1.0
     age = t / impact.damping if impact.damping > 0.0 else math.inf
+    of_force = of_impulse = of_acceleration = 1.0
+    of_moment = float(age > 0.0)  # a damped point bends from nothing
     if t > 0.0 and age <= min(damped_point.age_of_spreading(solved.kappa_over_nu), 1e12):
         if solved.regime != DISCRETE:  # it is one point as yet
             solved = contact_parameters(1.0, solved.alpha, solved.psi, solved.chi, axial=solved.axial)
@@ -259,7 +261,7 @@ def _at_time(
     length = root * math.sqrt(t) * spread
     exists = spread >= 0.0 and push > 0.0 and length <= impact.half_length
     moment, place = bending.peak(of_moment)
-    peak = None if of_moment < 1.0 and 0.0 < place < math.inf else moment
+    peak = None if 0.0 < age < damped_point.AHEAD_FROM and 0.0 < place < math.inf else moment
     force = front * (of_force * solved.r0 + of_impulse * solved.r1 * tau)
     impulse = 2.0 * front * math.sqrt(t) * (of_impulse * solved.r0 + of_acceleration * solved.r1 * tau / 3.0)
     impulse += 4.0 * uniform * root * t**1.5 * (solved.lambda0 / 3.0 + solved.lambda1 * tau / 5.0)

@@ -10,11 +10,11 @@ from typing import Any
 from bent_beam.files import write_atomically
 from bent_beam.measure.numbers import FACTOR
 from bent_beam_programs.predictor.coefficients import coefficients
-from comparison.bouncing import DAMPING_RATIOS
+from comparison.bouncing import DAMPING_RATIOS, RETURNS
 from comparison.doubts import LEAST_RESTITUTION, STEEP, WIDE
 from comparison.readable import BEAMS, BEFORE, LIMITS, REGIMES
 from comparison.runs import CHATTER, LEAST, LEAST_LIGHT, LIGHT
-from theory import contact_parameters, shear, validity, wall_prediction
+from theory import contact_parameters, damped_point, shear, validity, wall_prediction
 from theory.second_order import second_order
 
 TEMPLATES = Path(__file__).parent / "templates"
@@ -28,7 +28,7 @@ WORDS = {"regimes": REGIMES, "limits": LIMITS, "before": BEFORE, "beams": BEAMS}
 DOUBTS = {"wide": WIDE, "least_restitution": LEAST_RESTITUTION, "steep": STEEP}
 """From when on ``bentbeam bounce`` warns."""
 BARS = {"factor": FACTOR, "least": LEAST, "light": LIGHT, "leastLight": LEAST_LIGHT, "chatter": CHATTER,
-        "ratios": DAMPING_RATIOS}  # fmt: skip
+        "returns": RETURNS, "ratios": DAMPING_RATIOS}  # fmt: skip
 """Of its error bars, and the damping ratios that it takes where none is stated."""
 
 
@@ -46,6 +46,7 @@ def constants() -> dict[str, float]:
         "opening_alpha": alpha,
         "opening_axial": axial,
         "forgotten": shear.FORGOTTEN,
+        "ahead_from": damped_point.AHEAD_FROM,
         "flattest_sheared": shear.FLATTEST_SHEARED,
         "flattest_settled": wall_prediction.FLATTEST_SETTLED,
         "least_damped": wall_prediction.LEAST_DAMPED,

@@ -82,7 +82,7 @@ def test_page_is_the_theory_on_random_beams() -> None:
         " return {...p, at: given.shares.map((share) => Instants.at(p, share * p.timeScale))}; })",
         {"beams": beams, "shares": shares},
     )
-    causes, compared = set(), 0
+    causes, compared, unknown = set(), 0, 0
     for impact, answer in zip(impacts, found, strict=True):
         said, limits = theory_predict(impact, [share * impact.time_scale for share in shares]), answer["limits"]
         causes |= {said.limited_by, said.valid_after}
@@ -98,6 +98,7 @@ def test_page_is_the_theory_on_random_beams() -> None:
             if row.impulse is None:
                 continue
             assert (at["moment"] is None) == (row.peak_moment is None)
+            unknown += row.peak_moment is None
             root = math.sqrt(impact.wave_constant * row.time)
             momentum = impact.mass_per_length * impact.velocity * root
             for name, value, unit in (
@@ -109,7 +110,7 @@ def test_page_is_the_theory_on_random_beams() -> None:
                 assert value is None or at[name] == pytest.approx(value, rel=1e-6, abs=1e-6 * unit), name
                 compared += value is not None
     assert {"shear", "wall", "damping", "waves back from the ends", "slope", "first-order correction"} <= causes
-    assert compared > 450
+    assert compared > 450 and unknown > 3
 
 
 def random_inputs(count: int, seed: int) -> list[dict[str, Any]]:

@@ -45,13 +45,13 @@ const Answer = (() => {
       const shift = ({ begin, apart }) => min(abs(begin - base.begin), apart, base.apart); // they end it together by chance
       const shifts = FACTOR * Object.values(others).reduce((sum, run) => sum + shift(run), 0);
       const light = p.eta < BARS.light, chatter = light && p.kappa < 1 && !p.wall ? BARS.chatter * base.moment : 0;
-      // Twice the bar of its velocity, which is found first, may bring the beam to the wall again.
-      const again = base.returns.filter(([, speed]) => speed <= 2 * slow).map(([t]) => t - base.lastContact);
+      // A multiple of the bar of its velocity, which is found first, may bring the beam to the wall again.
+      const again = base.returns.filter(([, speed]) => speed <= BARS.returns * slow).map(([t]) => t - base.lastContact);
       const known = { lastContact: 0.5 / steps + shifts + max(0, ...again), force: landing, moment: chatter };
       const sum = bar + (known[name] || 0), least = light ? BARS.leastLight : BARS.least;
-      const found = { value: base[name], bar: sum && max(sum, least * abs(base[name])) };
-      if (name === "restitution") slow = found.bar;
-      return [name, found];
+      const number = { value: base[name], bar: sum && max(sum, least * abs(base[name])) };
+      if (name === "restitution") slow = number.bar;
+      return [name, number];
     }));
   }
 

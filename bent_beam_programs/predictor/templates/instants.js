@@ -10,19 +10,19 @@ const Instants = (() => {
     const alpha = b.acceleration * timeScale / b.velocity, n = b.tension / (b.mass * b.velocity ** 2);
     const contact = Theory.contact((b.curvature - b.wallCurvature) * c / b.velocity, alpha, n);
     const solved = { b, c, half, timeScale, slow, alpha, n, contact };
-    const moment = bending(solved, contact, 1), stress = Beam.stress(b, moment);
+    const moment = bending(solved, contact, 1, true), stress = Beam.stress(b, moment);
     const limits = Limits.limits(solved, b.yieldStress && stress > b.yieldStress);
     limits.forceUntil = given.damping === null ? limits.until : min(limits.until, Limits.swings(solved));
     return { ...solved, moment, stress, limits, reflected: Limits.ends(solved) * timeScale };
   }
 
-  /** Largest bending moment, N m; of a damped point with `factor` of that at the contact, null where that ahead of it,
-      which has no closed form, may be larger. */
-  function bending({ b }, { moment }, factor) {
+  /** Largest bending moment, N m; of a damped point with `factor` of that at the contact, null where it is not `known`
+      ahead of it and may be larger there. */
+  function bending({ b }, { moment }, factor, known) {
     const unit = b.velocity * sqrt(b.stiffness * b.mass), before = b.stiffness * (b.naturalCurvature - b.curvature);
-    const known = Math.max(abs(before + unit * moment.contact * factor), abs(before));
+    const behind = Math.max(abs(before + unit * moment.contact * factor), abs(before));
     const ahead = abs(before - unit * moment.ahead * factor);
-    return ahead > known && factor < 1 ? null : Math.max(known, ahead);
+    return ahead > behind && !known ? null : Math.max(behind, ahead);
   }
 
   /** Half length (shear lengths) of a sheared zone, long after shear waves: X − coth X = gap, by halving. */
@@ -72,7 +72,7 @@ const Instants = (() => {
       impulse += unit * time * J - 2 * front * ofImpulse * r0;
     }
     force += 2 * halfLength * pressure;
-    const moment = bending(p, contact, single ? Point.erf(sqrt(min(age, 100))) : 1);
+    const moment = bending(p, contact, single ? Point.erf(sqrt(min(age, 100))) : 1, !(age < VALIDITY.ahead_from));
     return { exists, halfLength, force, impulse, moment, stress: moment === null ? null : Beam.stress(b, moment) };
   }
 
