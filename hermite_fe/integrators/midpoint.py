@@ -32,6 +32,7 @@ __all__ = ["Midpoint"]
 Array = NDArray[np.float64]
 
 CONVERGED = 1e-11  # change of Δv over the largest velocity; the next would be its square
+ROUNDED = 2.0**-52  # h times that change over the largest deflection: of a beam at rest nothing smaller can be told
 MOST_ROUNDS = 60
 FULL_ROUNDS = 20  # of whole Newton steps; then half ones
 
@@ -103,9 +104,9 @@ def solve_step(problem: Problem, state: State, memory: MidpointMemory, t: float,
     springs, second, rows, solver = problem.matrices.springs, problem.matrices.second, problem.rows, problem.solver
     walls, mirrored, total = memory.wall, memory.mirrored, np.zeros(2)
     q, v, dv, new, right, x = state.q, state.v, memory.vectors.dv, memory.new, memory.right, memory.solution
-    speed, converged = 0.0, False
+    speed, bent, converged = 0.0, 0.0, False
     for i in range(0, v.size, 2):
-        speed = max(speed, abs(v[i]))
+        speed, bent = max(speed, abs(v[i])), max(bent, abs(q[i]))
     for k in range(MOST_ROUNDS):
         for i in range(q.size):
             new[i] = q[i] + h * (v[i] + 0.5 * dv[i])
@@ -137,7 +138,7 @@ def solve_step(problem: Problem, state: State, memory: MidpointMemory, t: float,
             change = max(change, abs(x[i] - dv[i]))
         for i in range(q.size):
             dv[i] += share * (x[i] - dv[i])
-        converged = change <= CONVERGED * speed
+        converged = change <= max(CONVERGED * speed, ROUNDED * bent / h)
     return CYCLING
 
 

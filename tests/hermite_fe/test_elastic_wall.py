@@ -91,6 +91,18 @@ def test_the_wall_takes_the_momentum_never_pulls_and_half_the_beam_is_half_of_it
     assert half[:-1] == pytest.approx(full[:-1], rel=1e-9) and half.wall == full.wall == "front"
 
 
+def test_a_beam_that_comes_to_rest_on_its_wall_pushes_with_its_weight() -> None:
+    """At rest nothing moves but the last digits: a step converges within these."""
+    impact = Impact.whole_beam(0.5, relative_damping=0.05).replace(
+        acceleration=5.0, wall_stiffness=1e3, wall_damping=44.0
+    )
+    method = HermiteFE(mesh=UniformMesh(0.05), integrator=Midpoint(time_step=2e-4))
+    rest = method.simulate(impact, end_time=8.0, save=100)
+    assert np.abs(rest.array("velocity", -1)).max() < 1e-10
+    force = np.diff(rest.array("total_impulse"))[-1] / np.diff(rest.time)[-1]
+    assert force == pytest.approx(5.0 * impact.mass_per_length * impact.length, rel=1e-9)
+
+
 def test_a_hinged_beam_swung_on_an_elastic_stop_is_its_modes() -> None:
     """Code_Aster's test SDNL32 (V5.02.032), whose published displacements the modes have (theory's tests)."""
     side, length = 0.014, 0.783
