@@ -82,10 +82,9 @@ def validity_text(document: dict[str, Any]) -> str:
 
 def _instants(document: dict[str, Any]) -> str:
     rows = document["times"]
-    units = {}
-    for name, (_, unit) in COLUMNS.items():
-        simulated = [row["simulation"].get(name, {}).get("value") for row in rows if "simulation" in row]
-        units[name] = unit_for(unit, [row[name] for row in rows] if any(row[name] for row in rows) else simulated)
+    beside = [row.get("simulation", {}) for row in rows]
+    known = {name: [row[name] or one.get(name, {}).get("value") for row, one in zip(rows, beside)] for name in COLUMNS}
+    units = {name: unit_for(unit, known[name]) for name, (_, unit) in COLUMNS.items()}
     head = ["time", "", *(f"{title}, {units[name][1]}" for name, (title, _) in COLUMNS.items())]
     body = []
     for row in rows:
@@ -117,10 +116,10 @@ def _agreement(document: dict[str, Any]) -> list[str]:
 def _largest(document: dict[str, Any]) -> list[str]:
     """The largest stress, or without a section the largest moment, each value with its time range."""
     last, whole = max(document["times"], key=lambda row: row["time"]), document["whole_impact"]
-    simulated, known = whole or last.get("simulation", {}), document["peak_stress"]
-    name, title, unit = largest_of(simulated.get("peak_stress") if known is None else known)
+    simulated = whole or last.get("simulation", {})
+    name, title, unit = largest_of(document["peak_stress"] or simulated.get("peak_stress"))
     known = document[name]
-    scale, unit = unit_for(unit, [simulated[name]["value"] if known is None and simulated else known])
+    scale, unit = unit_for(unit, [known or simulated.get(name, {}).get("value")])
     lines = [f"Largest {title}, {unit}:"]
     if document["valid_until"]:
         until = f"until {milliseconds(document['valid_until'])}, when {LIMITS[document['limited_by']]}"

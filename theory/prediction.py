@@ -244,14 +244,14 @@ def _at_time(
     tau = t / impact.time_scale
     age = t / impact.damping if impact.damping > 0.0 else math.inf
     of_force = of_impulse = of_acceleration = 1.0
-    of_moment = float(age > 0.0)  # a damped point bends from nothing
+    of_moment, ahead_known = float(age > 0.0), True  # a damped point bends from nothing
     if t > 0.0 and age <= min(damped_point.age_of_spreading(solved.kappa_over_nu), 1e12):
         if solved.regime != DISCRETE:  # it is one point as yet
             solved = contact_parameters(1.0, solved.alpha, solved.psi, solved.chi, axial=solved.axial)
             bending = replace(bending, moments=peak_moment_of(solved))
         of_force, of_impulse = float(damped_point.reaction_ratio(age)), float(damped_point.impulse_ratio(age))
         of_acceleration = float(damped_point.impulse_ratio_of_acceleration(age))
-        of_moment = float(damped_point.elastic_moment_ratio(age))
+        of_moment, ahead_known = float(damped_point.elastic_moment_ratio(age)), age >= damped_point.AHEAD_FROM
     spread = solved.lambda0 + solved.lambda1 * tau
     push = solved.r0 + solved.r1 * tau
     root = math.sqrt(impact.wave_constant)
@@ -261,7 +261,7 @@ def _at_time(
     length = root * math.sqrt(t) * spread
     exists = spread >= 0.0 and push > 0.0 and length <= impact.half_length
     moment, place = bending.peak(of_moment)
-    peak = None if 0.0 < age < damped_point.AHEAD_FROM and 0.0 < place < math.inf else moment
+    peak = moment if ahead_known or place in (0.0, math.inf) else None
     force = front * (of_force * solved.r0 + of_impulse * solved.r1 * tau)
     impulse = 2.0 * front * math.sqrt(t) * (of_impulse * solved.r0 + of_acceleration * solved.r1 * tau / 3.0)
     impulse += 4.0 * uniform * root * t**1.5 * (solved.lambda0 / 3.0 + solved.lambda1 * tau / 5.0)

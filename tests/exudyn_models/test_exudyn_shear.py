@@ -98,17 +98,15 @@ def test_plain_solve_dynamic_finds_the_restitution_of_the_explicit_code() -> Non
     assert impulse / 2.0 - 1.0 == pytest.approx(leapfrog.whole_impact(0.5, 3e-3, 0.05, G, 50, 1.1)[0], abs=5e-3)
 
 
-def drawn() -> list[object]:
-    """κ/ν, η/T*, l_s and g, stratified: each size once with each other where they go round; and one whose shear length
-    no element resolves."""
+def drawn() -> list[tuple[float, float, float, float]]:
+    """κ/ν, η/T*, l_s and g, stratified: each size once with each other where they go round."""
     random, cases = np.random.default_rng(SEED), []
     for k, kappa in enumerate((0.1, 0.2, 0.5, 1.0)):
         for j, damping in enumerate((7e-5, 7e-4, 3e-3)):
             length = (0.02, 0.08)[(k + j) % 2]
             spread = 2.0 ** random.uniform(-0.2, 0.2, 3)
             cases.append((kappa * spread[0], damping * spread[1], length * spread[2], random.uniform(0.2, 0.33)))
-    missed = pytest.mark.xfail(reason="largest moment on Exudyn 1.180 ± 0.002, a finer run of the Hermite path 1.1772")
-    return [*cases, pytest.param((0.5, 3e-3, 0.002, G), marks=missed)]
+    return [*cases, (0.5, 3e-3, 0.002, G)]
 
 
 @pytest.mark.verify
@@ -126,7 +124,10 @@ def test_drawn_beams_agree_with_the_hermite_path_and_the_explicit_code_within_ba
     for name in names:
         ours, theirs = exudyn.numbers[name], hermite.numbers[name]
         print(f"{name}: exudyn {ours}, hermite {theirs}, explicit {explicit.get(name)}")
-        assert abs(ours.value - theirs.value) <= ours.bar + theirs.bar, name
+        agree = abs(ours.value - theirs.value) <= ours.bar + theirs.bar
+        if not agree and (name, length) == ("peak_moment", 0.002):  # the last of three numbers
+            pytest.xfail("no element resolves the shear length: Exudyn 1.180 ± 0.002, a finer Hermite run 1.1772")
+        assert agree, name
         if name in explicit:
             value, bar = explicit[name]
             assert abs(ours.value - value) <= ours.bar + bar, name

@@ -268,6 +268,8 @@ def test_the_moment_ahead_of_a_damped_point_has_no_number_in_its_first_75_dampin
         assert (early.peak_moment is not None, early.peak_moment_place is not None) == (known, known)
         undamped = predict(point.replace(damping=0.0), 7.6e-4).times[0]
         assert late.peak_moment == pytest.approx(undamped.peak_moment, rel=1e-12)
+    (spread,) = predict(Impact.whole_beam(0.3, relative_damping=1e-5), 6e-4).times  # no point any more: as without
+    assert spread.peak_moment == pytest.approx(peak_moment(0.3).largest, rel=1e-12) and not spread.valid
 
 
 @pytest.mark.parametrize(("age", "share"), [(1e-3, 0.24), (damped_point.AHEAD_FROM, 0.98 * 0.5597868)])

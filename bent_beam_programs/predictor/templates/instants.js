@@ -72,7 +72,8 @@ const Instants = (() => {
       impulse += unit * time * J - 2 * front * ofImpulse * r0;
     }
     force += 2 * halfLength * pressure;
-    const moment = bending(p, contact, single ? Point.erf(sqrt(min(age, 100))) : 1, !(age < VALIDITY.ahead_from));
+    const factor = single ? Point.erf(sqrt(min(age, 100))) : 1, known = !single || age >= VALIDITY.ahead_from;
+    const moment = bending(p, contact, factor, known);
     return { exists, halfLength, force, impulse, moment, stress: moment === null ? null : Beam.stress(b, moment) };
   }
 
