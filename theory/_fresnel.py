@@ -45,7 +45,6 @@ _FRONT = float(np.sqrt(2.0) / np.pi)
 _MOMENT_WEIGHTS = _FRONT * _WEIGHTS[:, None] * _NODES[:, None] ** (2 * np.arange(_ORDERS))
 # The residues fall like e^{−2π√(q/2)/h}: below 1e-18 of every moment from here on.
 _POLES_FAR = 40.0
-_CHUNK = 8192  # values of q at a time, so that the table of poles stays in the cache
 
 
 def fresnel_integrals(lam: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -59,19 +58,10 @@ def scaled_moments(q: FloatArray) -> FloatArray:
 
     They tend to (√2/π) Γ(k+1/2) for large q. Relative error below 1e-14.
     """
-    moments = np.empty((q.size, _ORDERS))
-    squares = _NODES**2
-    for start in range(0, q.size, _CHUNK):
-        part = slice(start, start + _CHUNK)
-        table = squares * (1.0 / q[part, None])
-        np.multiply(table, table, out=table)
-        table += 1.0
-        np.divide(1.0, table, out=table)
-        np.matmul(table, _MOMENT_WEIGHTS, out=moments[part])
+    moments = 1.0 / (1.0 + (_NODES**2 * (1.0 / q[:, None])) ** 2) @ _MOMENT_WEIGHTS
     near = q < _POLES_FAR
-    if np.any(near):
-        moments[near] += _residues(q[near])
-    return np.ascontiguousarray(moments.T)
+    moments[near] += _residues(q[near])
+    return moments.T
 
 
 def _residues(q: FloatArray) -> FloatArray:

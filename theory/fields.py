@@ -28,6 +28,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from bent_beam.checks import non_negative, positive
+from bent_beam.loads import FreeMotion
 from theory._fresnel import TURN, ComplexArray, FloatArray, scaled_iterated_erfc
 from theory.contact import DISCRETE, ContactParameters
 
@@ -88,14 +89,9 @@ class ImpactFields:
         """The motion without the wall (2.2.41), (2.2.43), (2.2.45); ξ and τ broadcast."""
         x, t = np.broadcast_arrays(_finite("xi", xi), self._times(tau))
         p, e = self.parameters, self.epsilon
-        return FieldValues(
-            deflection=t
-            - p.kappa_over_nu * x**2 / 2.0
-            + e * (p.psi * x**4 / 24.0 + p.chi * x**2 * t / 2.0 + p.alpha * t**2 / 2.0),
-            slope=-p.kappa_over_nu * x + e * (p.psi * x**3 / 6.0 + p.chi * x * t),
-            curvature=-p.kappa_over_nu + e * (p.psi * x**2 / 2.0 + p.chi * t),
-            velocity=1.0 + e * (p.chi * x**2 / 2.0 + p.alpha * t),
-        )
+        loads = {(0, 2): e * p.alpha, (2, 1): e * p.chi, (4, 0): e * p.psi}
+        motion = FreeMotion({(0, 1): 1.0, (2, 0): -p.kappa_over_nu} | loads)
+        return FieldValues(motion(x, t), motion(x, t, by_x=1), motion(x, t, by_x=2), motion(x, t, by_t=1))
 
     def fast_layer(self, xi: ArrayLike, tau: ArrayLike) -> FieldValues:
         """η, η_ξ, η_ξξ, η_τ: what the reactions do to the beam; ξ and τ broadcast.

@@ -126,5 +126,4 @@ def K(xi: ArrayLike, tau: ArrayLike) -> FloatArray | float:
         raise ValueError(f"tau must not be negative or NaN (got {tau!r})")
     root = np.sqrt(time)
     beta = np.divide(position, root, out=np.zeros(position.shape), where=root > 0.0)
-    values = root / np.sqrt(2.0 * np.pi) * H(beta)
-    return np.asarray(values) if position.ndim else float(values)
+    return (root / np.sqrt(2.0 * np.pi) * H(beta))[()]

@@ -47,15 +47,11 @@ class Argument:
 
 def _evaluate(lam: ArrayLike | Argument, closed: Callable[..., FloatArray], reduced: Callable[..., FloatArray]) -> Any:
     """closed(λ, φ_ν, φ_κ) for λ < SWITCH, reduced(q, moments q^{k+1/2} I_k) beyond."""
-    if isinstance(lam, Argument):
-        result = np.empty_like(lam.lam)
-        result[lam.near] = closed(lam.lam[lam.near], *lam.integrals)
-        far = ~lam.near
-        result[far] = reduced(lam.lam[far] ** 2 / 4.0, lam.moments)
-        return result
-    values = np.asarray(lam, dtype=np.float64)
-    result = _evaluate(Argument.of(values.ravel()), closed, reduced)
-    return result.reshape(values.shape) if values.ndim else float(result[0])
+    at = lam if isinstance(lam, Argument) else Argument.of(np.asarray(lam, dtype=np.float64).ravel())
+    result = np.empty_like(at.lam)
+    result[at.near] = closed(at.lam[at.near], *at.integrals)
+    result[~at.near] = reduced(at.lam[~at.near] ** 2 / 4.0, at.moments)
+    return result if at is lam else result.reshape(np.shape(lam))[()]
 
 
 def phi_nu(lam: ArrayLike | Argument) -> Any:

@@ -18,9 +18,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
+from bent_beam.as_json import plain
 from bent_beam.impact import Impact
 from bent_beam.loads import unmodelled
 from bent_beam.section import Section
@@ -129,8 +130,7 @@ class Prediction:
 
     def to_dict(self) -> dict[str, Any]:
         """Plain dictionaries, lists and finite numbers, ready for JSON; None where a value is missing."""
-        found = asdict(self, dict_factory=_finite)
-        return found | {"times": list(found["times"])}
+        return dict(plain(self))
 
 
 def predict(impact: Impact, times: Iterable[float] | float = (), *, section: Section | None = None) -> Prediction:
@@ -235,7 +235,7 @@ class _Bending:
         """Largest |σ| (Pa) of a moment together with the axial force."""
         if self.section is None or moment is None:
             return None
-        return moment / self.section.section_modulus + abs(self.impact.axial_force) / self.section.area
+        return self.section.stress(moment, self.impact.axial_force)
 
 
 def _at_time(
@@ -287,7 +287,3 @@ def _at_time(
         valid=spoiled_by is None,
         spoiled_by=spoiled_by,
     )
-
-
-def _finite(items: list[tuple[str, Any]]) -> dict[str, Any]:
-    return {name: None if isinstance(value, float) and not math.isfinite(value) else value for name, value in items}
