@@ -20,6 +20,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from theory._fresnel import FloatArray
+from theory.elastic_wall import largest
 
 MODES = 120
 SAMPLES = 4000  # of a record, between which the end is looked for on either side of the stop
@@ -75,9 +76,8 @@ class SwungBeam:
         time, found = self.tip(end)
         if found.argmax() == found.size - 1:
             raise ValueError(f"end must lie after the largest force, which still grows (got {end!r})")
-        k = min(max(int(found.argmax()), 1), found.size - 2)
-        a, b, c = np.polyfit(time[k - 1 : k + 2] - time[k], found[k - 1 : k + 2], 2)
-        return self.stop_stiffness * float(c - b * b / (4.0 * a)), float(time[k] - b / (2.0 * a))
+        at, deepest = largest(time, found)
+        return self.stop_stiffness * deepest, at
 
 
 def _moved(t: Any, rate: FloatArray, place: FloatArray, speed: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -102,14 +102,14 @@ def peak_force(kappa_over_nu: float, wall_damping_ratio: float = 0.0) -> PeakFor
     late = int(max(scout.force.argmax(), scout.penetration.argmax()))
     whole = _again(scout, late, 3, kappa_over_nu, wall_damping_ratio)
     runs = [_again(whole, int(whole.force.argmax()), n, kappa_over_nu, wall_damping_ratio) for n in (1, 2, 4)]
-    (_, coarsest), (_, coarse), (time, fine) = (_largest(run.time, run.force) for run in runs)
+    (_, coarsest), (_, coarse), (time, fine) = (largest(run.time, run.force) for run in runs)
     step = (fine - coarse) / 3.0
     return PeakForce(
         value=fine + step,
         error=abs(step) + abs(fine + step - coarse - (coarse - coarsest) / 3.0),
         time=time,
         half_contact_length=float(runs[-1].half_contact_length[runs[-1].force.argmax()]),
-        penetration=_largest(whole.time, whole.penetration)[1],
+        penetration=largest(whole.time, whole.penetration)[1],
         pressure=float(max(whole.pressure.max(), runs[-1].pressure.max())),
     )
 
@@ -121,7 +121,7 @@ def _again(run: WallHistory, instant: int, factor: int, kappa_over_nu: float, da
     return wall_history(kappa_over_nu, damping_ratio, end=end, cells=cells, steps=2 * cells, width=width)
 
 
-def _largest(time: FloatArray, values: FloatArray) -> tuple[float, float]:
+def largest(time: FloatArray, values: FloatArray) -> tuple[float, float]:
     """Time and height of the parabola's top through the largest value and its neighbours."""
     i = min(max(int(values.argmax()), 1), values.size - 2)
     before, here, after = values[i - 1 : i + 2]
@@ -274,10 +274,8 @@ def sharp_limit() -> SharpLimit:
         late = spread[n] - of_root[past] @ force1[1:n] - of_root[0] * force[n] * moment[n] / 2.0
         place1[n] = late / (1.0 + of_root[0] * stiffness)
         force1[n] = stiffness * place1[n] + force[n] * moment[n] / 2.0
-    i = int(force.argmax())
-    bend = np.polyfit(t[i - 1 : i + 2], force[i - 1 : i + 2], 2)
-    at = -0.5 * bend[1] / bend[0]
-    return SharpLimit(float(np.polyval(bend, at)), float(np.interp(at, t[:-1], force1)), float(at), float(place.max()))
+    at, value = largest(t, force)
+    return SharpLimit(value, float(np.interp(at, t[:-1], force1)), at, float(place.max()))
 
 
 def _weights(twice_integrated: FloatArray, dt: float) -> FloatArray:

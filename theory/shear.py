@@ -137,25 +137,24 @@ def first_instants(
     point with damping does not spread from the first instant on.
     solved : of this κ/ν, or of one point where damping keeps a zone from spreading."""
     kappa, early = solved.kappa_over_nu, time <= early_until(kappa_over_nu)
-    if kappa >= 1.0 and time <= LATE and (damping > 0.0 or not early):
+    summed = kappa >= 1.0 and time <= LATE
+    if early and not (summed and damping > 0.0):
+        return early_zone(kappa_over_nu, time)
+    place = early_zone(kappa_over_nu, time)[0] if early else rim(kappa, solved.lambda0, time)
+    if summed:
         point = StoppedPoint(ratio, damping)
         held = float(point.zone(time, kappa_over_nu))
-        if held < (early_zone(kappa_over_nu, time)[0] if early else rim(kappa, solved.lambda0, time)):
-            return held, float(point.reaction(time)), float(point.impulse(time))
-    if early:
-        return early_zone(kappa_over_nu, time)
-    place = rim(kappa, solved.lambda0, time)
+        if early and held >= place:
+            return early_zone(kappa_over_nu, time)
+        return min(held, place), float(point.reaction(time)), float(point.impulse(time))
     push, given = 2.0 * np.sqrt(2.0 / (np.pi * time)), 4.0 * np.sqrt(2.0 * time / np.pi)
     if kappa < 1.0:
         return place, push * solved.r0, given * solved.r0
-    if time > LATE:
-        lag = (3.0 - ratio) / (8.0 * time)
-        age = time / damping if damping > 0.0 else np.inf
-        if age < 1e12:
-            push, given = push * damped_point.reaction_ratio(age), given * damped_point.impulse_ratio(age)
-        return place, float(push * (1.0 + lag)), float(given * (1.0 - lag))
-    point = StoppedPoint(ratio, damping)
-    return place, float(point.reaction(time)), float(point.impulse(time))
+    lag = (3.0 - ratio) / (8.0 * time)
+    age = time / damping if damping > 0.0 else np.inf
+    if age < 1e12:
+        push, given = push * damped_point.reaction_ratio(age), given * damped_point.impulse_ratio(age)
+    return place, float(push * (1.0 + lag)), float(given * (1.0 - lag))
 
 
 def forgotten_after(kappa_over_nu: float) -> float:
