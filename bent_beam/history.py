@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
-from functools import cached_property, lru_cache
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -137,9 +137,9 @@ class ImpactHistory:
         parts: dict[str, Any] = dict(self.variables)
         return xr.Dataset(parts, {name: parts.pop(name) for name in COORDINATES if name in parts}, dict(self.attrs))
 
-    @property
+    @cached_property
     def impact(self) -> Impact:
-        return _impact(self.attrs["impact"])
+        return Impact(**json.loads(self.attrs["impact"]))
 
     @property
     def path(self) -> str:
@@ -292,9 +292,3 @@ def end_curvatures(x: Array, y: Array, slope: Array) -> Array:
     left = (6.0 * rise - 4.0 * slope[..., :-1] - 2.0 * slope[..., 1:]) / h
     right = (-6.0 * rise + 2.0 * slope[..., :-1] + 4.0 * slope[..., 1:]) / h
     return np.stack([left, right], axis=-1)
-
-
-@lru_cache(maxsize=16)
-def _impact(described: str) -> Impact:
-    """Of the attribute, which is asked for at every instant."""
-    return Impact(**json.loads(described))

@@ -13,32 +13,23 @@ CUT_OFF = 0.01  # of the run
 
 
 def force_and_stress(history: Any) -> Any:
-    """Both, one above the other, as a Matplotlib figure."""
+    """Both, one above the other, as a Matplotlib figure: the mean force of the wall between saved instants, cut off at
+    the very start, where it falls like 1/√t; the largest stress along the beam, without a section the largest bending
+    moment."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(6.0, 5.0), layout="constrained")
     upper, lower = figure.subplots(2, 1, sharex=True)
-    _draw_force(upper, history)
-    _draw_stress(lower, history)
-    return figure
-
-
-def _draw_force(axis: Any, history: Any) -> None:
-    """Mean force of the wall between saved instants; at the very start, where it falls like 1/√t, it is cut off."""
-    force = history.force
+    force, stress = history.force, history.stress
     top = 1.2 * float(force[history.time >= CUT_OFF * history.time[-1]].max())
-    scale = _draw(axis, history, np.minimum(force, top), "force of the wall", "N")
+    scale = _draw(upper, history, np.minimum(force, top), "force of the wall", "N")
     if top > 0.0:
-        axis.set_ylim(top=scale * top)
-
-
-def _draw_stress(axis: Any, history: Any) -> None:
-    """Largest stress along the beam; without a section the largest bending moment."""
-    stress = history.stress
+        upper.set_ylim(top=scale * top)
     if stress is None:
-        _draw(axis, history, history.moment, "largest bending moment", "N m")
+        _draw(lower, history, history.moment, "largest bending moment", "N m")
     else:
-        _draw(axis, history, 1e-6 * stress, "largest stress", "MPa")
+        _draw(lower, history, 1e-6 * stress, "largest stress", "MPa")
+    return figure
 
 
 def _draw(axis: Any, history: Any, values: NDArray[np.float64], title: str, unit: str) -> float:

@@ -57,7 +57,7 @@ Progress = Callable[[float], None]
 def instants_reading(times: tuple[float, ...], first_spread: bool, history: ImpactHistory) -> dict[str, Any]:
     """What a run says at the last of ``times``, s, and at those before, JSON-ready."""
     *earlier, last = times
-    before = [asdict(instant(history, t, first_spread=first_spread, with_lift=False)) for t in earlier]
+    before = [asdict(instant(history, t, first_spread=first_spread)) for t in earlier]
     found = asdict(instant(history, last, first_spread=first_spread))
     if last > 0.0 and abs(found["reaction"] or 0.0) < ROUND_OFF * abs(found["impulse"]) / last:
         found["reaction"] = 0.0  # impulses of a beam in flight add up to round-off

@@ -19,6 +19,7 @@ from bent_beam.measure.moments import (
     first_front,
     half_contact_length,
     jump_of_rim,
+    lift,
     mean_reaction,
     moments,
 )
@@ -61,12 +62,11 @@ class Instant:
     lift: float
 
 
-def instant(history: ImpactHistory, time: float, *, first_spread: bool = False, with_lift: bool = True) -> Instant:
+def instant(history: ImpactHistory, time: float, *, first_spread: bool = False) -> Instant:
     """Read a run at ``time``, s.
 
     first_spread : the contact is the first spread of a zone about the middle of a beam before a rigid wall: its
         rim is read without assuming how the zone behind it bears (:func:`bent_beam.measure.moments.first_front`).
-    with_lift : otherwise the lift is not read, which takes longest.
     """
     k = int(np.argmin(np.abs(history.time - time)))  # saved times are those of steps
     front: float | None
@@ -79,6 +79,7 @@ def instant(history: ImpactHistory, time: float, *, first_spread: bool = False, 
     peak = _so_far(peak_moment, history, time, "moment", jumps=True)
     wall = _so_far(wall_peaks, history, time, "force", "penetration", "pressure")
     begin, end = history.impact.wall_span
+    recent = (history.time >= 0.1 * time) & (history.time <= time * (1.0 + 1e-9))
     return Instant(
         half_contact_length=front,
         reaction=mean_reaction(history, time),
@@ -95,7 +96,7 @@ def instant(history: ImpactHistory, time: float, *, first_spread: bool = False, 
         peak_pressure=None if wall is None or begin == end else wall.pressure,
         impulse_around=tuple(np.interp(time * SHARES_AROUND, history.time, history.array("total_impulse")).tolist()),
         element=0.0 if first_spread or front is None else max(element_at(history, k, front), jump_of_rim(history, k)),
-        lift=_lift(history, time) if first_spread and with_lift else 0.0,
+        lift=float(lift(history)[recent].max(initial=0.0)) if first_spread else 0.0,
     )
 
 
@@ -109,8 +110,3 @@ def _so_far(read: Callable[..., Any], history: ImpactHistory, time: float, *name
     early, span = read(history, until=float(history.time[k - 1])), history.time[k - 1 : k + 1]
     mixed = {name: float(np.interp(time, span, (getattr(early, name), getattr(late, name)))) for name in names}
     return late._replace(time=min(late.time, time), **mixed)
-
-
-def _lift(history: ImpactHistory, time: float) -> float:
-    recent = (history.time >= 0.1 * time) & (history.time <= time * (1.0 + 1e-9))
-    return float(moments(history).lift[recent].max(initial=0.0))

@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 from bent_beam.history import ImpactHistory
 
 __all__ = [
-    "Moments", "element_at", "first_front", "half_contact_length", "jump_of_rim", "local_front", "mean_reaction",
-    "moments", "one_side",
+    "Moments", "element_at", "first_front", "half_contact_length", "jump_of_rim", "lift", "local_front",
+    "mean_reaction", "moments", "one_side",
 ]  # fmt: skip
 
 Array = NDArray[np.float64]
@@ -127,7 +127,7 @@ def moments(history: ImpactHistory, *, uniform: bool | None = None) -> Moments:
         moment=moment / (unit * impact.length_scale),
         pressure=pressure / (unit / impact.length_scale / impact.time_scale),
         front=_carried(front, np.concatenate([time[:1], time[:-1]]), time) / impact.length_scale,
-        lift=_lift(history),
+        lift=lift(history),
     )
 
 
@@ -147,15 +147,16 @@ def _smooth(time: Array, values: Array) -> Array:
     return np.where(last > first, (gathered[last] - gathered[first]) / span, values)
 
 
-def _lift(history: ImpactHistory) -> Array:
-    """Largest gap inside nine tenths of the contact zone over V₀t at the saved instants (0 without a zone)."""
+def lift(history: ImpactHistory) -> Array:
+    """Largest gap inside nine tenths of the contact zone over V₀t at the saved instants, shape (times,); 0 without a
+    zone."""
     front = local_front(history.time, *one_side(history))
-    lift = np.zeros(history.time.size)
+    found = np.zeros(history.time.size)
     for k, t in enumerate(history.time):
         inside = np.abs(history.positions(k)) <= 0.9 * front[k]
         if t > 0.0 and inside.any():
-            lift[k] = max(0.0, float(history.array("gap", k)[inside].max())) / (history.impact.velocity * t)
-    return lift
+            found[k] = max(0.0, float(history.array("gap", k)[inside].max())) / (history.impact.velocity * t)
+    return found
 
 
 # --- around one instant ------------------------------------------------------------------------------------------
