@@ -19,12 +19,12 @@ whose recurrence loses digits for large |z|, where the series has all of them.
 
 from __future__ import annotations
 
-from math import factorial, pi, sqrt
+from math import factorial, sqrt
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.special import fresnel, wofz
+from scipy.special import wofz
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -45,12 +45,6 @@ _FRONT = float(np.sqrt(2.0) / np.pi)
 _MOMENT_WEIGHTS = _FRONT * _WEIGHTS[:, None] * _NODES[:, None] ** (2 * np.arange(_ORDERS))
 # The residues fall like e^{−2π√(q/2)/h}: below 1e-18 of every moment from here on.
 _POLES_FAR = 40.0
-
-
-def fresnel_integrals(lam: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """S and C at λ/√(2π), any shape."""
-    s, c = fresnel(lam / sqrt(2.0 * pi))
-    return s, c
 
 
 def scaled_moments(q: FloatArray) -> FloatArray:
@@ -75,12 +69,6 @@ def _residues(q: FloatArray) -> FloatArray:
         result[:, k] = term.real
         term = 1.0j * q * term
     return result
-
-
-def twice_auxiliary(lam: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """φ_ν = 2f and φ_κ = 2g, which are (1 + i) e^{z²} erfc z = φ_κ + iφ_ν, for λ ≥ 0 (A.5.1), (A.5.2)."""
-    both = (1.0 + 1.0j) * scaled_erfc(lam)
-    return both.imag, both.real
 
 
 def scaled_erfc(x: ArrayLike) -> ComplexArray:

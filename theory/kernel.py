@@ -24,8 +24,9 @@ from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.special import fresnel
 
-from theory._fresnel import SWITCH, TURN, FloatArray, fresnel_integrals, scaled_iterated_erfc, scaled_moments
+from theory._fresnel import SWITCH, TURN, FloatArray, scaled_iterated_erfc, scaled_moments
 
 # Past it β³ would overflow; H, H′ and P − √(π/2) are zero to double precision long before.
 _LARGEST = 1e100
@@ -56,7 +57,7 @@ def _evaluate(beta: ArrayLike, closed: Callable[..., FloatArray], reduced: Calla
     b = _size(beta)
     near, result = b < SWITCH, np.empty_like(b)
     x = b[near]
-    result[near] = closed(x, *fresnel_integrals(x))
+    result[near] = closed(x, *fresnel(x / np.sqrt(2.0 * np.pi)))
     x = b[~near]
     q = x**2 / 4.0
     result[~near] = reduced(x, q, scaled_moments(q), *_phase(x))

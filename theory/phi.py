@@ -18,8 +18,9 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy.special import fresnel
 
-from theory._fresnel import SWITCH, FloatArray, fresnel_integrals, scaled_moments, twice_auxiliary
+from theory._fresnel import SWITCH, FloatArray, scaled_erfc, scaled_moments
 
 _ROOT_TWO_PI = np.sqrt(2.0 * np.pi)
 
@@ -42,7 +43,8 @@ class Argument:
         if not np.all(lam >= 0.0):
             raise ValueError(f"lam must not be negative or NaN (got {lam[~(lam >= 0.0)][0]!r})")
         near = lam < SWITCH
-        return cls(lam, near, twice_auxiliary(lam[near]), scaled_moments(lam[~near] ** 2 / 4.0))
+        both = (1.0 + 1.0j) * scaled_erfc(lam[near])  # φ_κ + iφ_ν
+        return cls(lam, near, (both.imag, both.real), scaled_moments(lam[~near] ** 2 / 4.0))
 
 
 def _evaluate(lam: ArrayLike | Argument, closed: Callable[..., FloatArray], reduced: Callable[..., FloatArray]) -> Any:
@@ -170,7 +172,7 @@ def phi_nu_minus_kappa(lam: ArrayLike | Argument) -> Any:
 
     def closed(x: FloatArray, nu: FloatArray, kappa: FloatArray) -> FloatArray:
         # (A.5.1) − (A.5.2) with the ones cancelled by hand
-        s, c = fresnel_integrals(x)
+        s, c = fresnel(x / _ROOT_TWO_PI)
         phase = x**2 / 4.0
         return np.asarray(2.0 * ((c - s) * np.cos(phase) - (1.0 - c - s) * np.sin(phase)))
 

@@ -23,9 +23,6 @@ from bent_beam.checks import non_negative, positive
 from bent_beam.impact import Impact
 from theory.prediction import Prediction, predict
 
-SLIDES = "slides"
-STICKS = "sticks"
-
 
 @dataclass(frozen=True)
 class SidewaysAtTime:
@@ -101,7 +98,7 @@ def sideways(
         )
         for row in prediction.times
     )
-    return Sideways(STICKS if sticks_at == 0.0 else SLIDES, ratio, sticks_at, rows)
+    return Sideways("sticks" if sticks_at == 0.0 else "slides", ratio, sticks_at, rows)
 
 
 def _scaled(value: float | None, by: float | None) -> float | None:

@@ -74,12 +74,8 @@ def zone_offset(kappa_over_nu: float) -> float:
 
 
 def on_elastic_wall(impact: Impact, solved: ContactParameters) -> WallPrediction | None:
-    """The largest force and the range of the rigid wall's law; None for a rigid wall.
-
-    Args:
-        impact: the physical problem.
-        solved: its contact parameters.
-    """
+    """The largest force and the range of the rigid wall's law, with the impact's contact parameters; None for a rigid
+    wall."""
     scales = wall_scales(impact)
     if scales is None or impact.wall_stiffness is None:
         return None
