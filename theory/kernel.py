@@ -3,13 +3,13 @@ r"""The beam under a unit impulse: ∂²K/∂τ² + ∂⁴K/∂ξ⁴ = δ(τ)δ(
     K(ξ,τ) = √(τ/2π) H(|ξ|/√τ)                                                       (2.3.2)
     H(β)   = √(π/2) β [S − C](β/√2π) + √2 sin((π+β²)/4)                              (2.3.3)
     H′ = √(π/2)[S − C],   H″ = ½[sin − cos](β²/4),   H‴ = (β/4)[cos + sin](β²/4)
-    P(β)   = ∫₀^β H                                                                  (2.7.12)
+    P(β)   = ∫₀^β H = βH/2 + √(π/2)[S + C]                                           (2.7.12)
 
 H, H″, K are even, H′, H‴, P odd. (2.3.3) cancels for large β; there, with the moments I_k(β²/4) of
 `theory._fresnel` and c, s = cos, sin(β²/4),
 
     H  = √(π/8) β [(c+s) I₂ + (c−s) I₁],        H′ = −√(π/8) [(c+s) I₀ − (c−s) I₁],
-    P  = √(π/2) {1 + ½(s−c)(2q I₃ − I₂) + ½(s+c)(2q I₂ − I₁)},   q = β²/4.
+    S + C = 1 − ½[(c+s) I₁ + (c−s) I₀].
 
 Under an axial force n the kernel is √(τ/2π)[H(β) + nτ H_N(β)] to first order in n, z = e^{−iπ/4}|β|/2,
 
@@ -98,17 +98,12 @@ def H3(beta: ArrayLike) -> FloatArray | float:
 
 def P(beta: ArrayLike) -> FloatArray | float:
     """∫₀^β H (2.7.12), odd, P(∞) = √(π/2); β of any shape."""
-
-    def closed(x: FloatArray, S: FloatArray, C: FloatArray) -> FloatArray:
-        phase, half = x**2 / 4.0, x**2 / 2.0
-        integrals = (half + 1.0) * S - (half - 1.0) * C
-        return np.asarray(np.sqrt(np.pi / 2.0) * integrals + x / 2.0 * (np.sin(phase) + np.cos(phase)))
-
-    def reduced(x: FloatArray, q: FloatArray, m: FloatArray, c: FloatArray, s: FloatArray) -> FloatArray:
-        wave = ((s - c) * (2.0 * m[3] - m[2]) / q + (s + c) * (2.0 * m[2] - m[1])) / (q * np.sqrt(q))
-        return np.asarray(np.sqrt(np.pi / 2.0) * (1.0 + 0.5 * wave))
-
-    return (np.copysign(1.0, beta) * _evaluate(beta, closed, reduced))[()]
+    both = _evaluate(
+        beta,
+        lambda x, S, C: S + C,
+        lambda x, q, m, c, s: 1.0 - 0.5 * ((c + s) * m[1] / q + (c - s) * m[0]) / np.sqrt(q),
+    )
+    return (np.copysign(1.0, beta) * (0.5 * _size(beta) * H(beta) + np.sqrt(np.pi / 2.0) * both))[()]
 
 
 def H_axial(beta: ArrayLike) -> FloatArray | float:

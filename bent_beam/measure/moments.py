@@ -68,17 +68,13 @@ def one_side(history: ImpactHistory) -> tuple[Array, Array]:
 def _outwards(history: ImpactHistory) -> Iterator[tuple[Array, Array, Array]]:
     """Of each interval between saved instants, contact points from the centre outwards: place (m), impulse gathered up
     to there on one side (N s), and length that is the point's own (m)."""
-    moving = "contact_position" in history
-    before = history.array("impulse", 0)
     for k in range(1, history.time.size):
-        if moving or k == 1:  # a moving contact point has gathered its impulse on the way: take its place halfway
-            places = np.abs(0.5 * (history.contact_positions(k - 1) + history.contact_positions(k)))
-            order = np.argsort(places)
-            places = places[order]
-            own = np.gradient(places) if places.size > 1 else np.zeros(places.size)
-        impulse = history.array("impulse", k)
-        gathered = (impulse - before)[order] / history.sides
-        before = impulse
+        # a moving contact point has gathered its impulse on the way: its place is taken halfway
+        places = np.abs(0.5 * (history.contact_positions(k - 1) + history.contact_positions(k)))
+        order = np.argsort(places)
+        places = places[order]
+        own = np.gradient(places) if places.size > 1 else np.zeros(places.size)
+        gathered = (history.array("impulse", k) - history.array("impulse", k - 1))[order] / history.sides
         upto = np.cumsum(gathered) - 0.5 * gathered
         upto[places == 0.0] = 0.0  # the centre carries for one side of it
         yield places, upto, own
