@@ -53,7 +53,7 @@ def _evaluate(lam: ArrayLike | Argument, closed: Callable[..., FloatArray], redu
     result = np.empty_like(at.lam)
     result[at.near] = closed(at.lam[at.near], *at.integrals)
     result[~at.near] = reduced(at.lam[~at.near] ** 2 / 4.0, at.moments)
-    return result if at is lam else result.reshape(np.shape(lam))[()]
+    return result if isinstance(lam, Argument) else result.reshape(np.shape(lam))[()]
 
 
 def phi_nu(lam: ArrayLike | Argument) -> Any:
