@@ -8,12 +8,12 @@ from typing import Any
 
 from bent_beam.checks import one_of, shortened
 from bent_beam.errors import InputError
-from bent_beam.fields import declared
+from bent_beam.fields import Part, declared
 from bent_beam.hysteresis import FIRST_MODE
 from bent_beam.impact import Impact
 from bent_beam.loads import ENDS
 from bent_beam.section import Section
-from bent_beam.tables import AS_THEY_ARE, MODELS, BeamTable, WallTable, _ImpactTable
+from bent_beam.tables import AS_THEY_ARE, MODELS, WAYS, BeamTable, WallTable, _ImpactTable
 
 __all__ = ["impact_of"]
 
@@ -37,15 +37,17 @@ def impact_of(beam: BeamTable, arrival: _ImpactTable, wall: WallTable, section: 
     return Impact(**values)
 
 
-def _one_of(where: str, values: Mapping[str, float | None], *, required: bool = True) -> tuple[str | None, float]:
-    """Name and value of the one that is given (``None``, 0: none is). :class:`InputError` names those that clash, or
-    what is missing."""
-    given = [(name, value) for name, value in values.items() if value is not None]
+def _one_of(table: Part, group: int, *, required: bool = True) -> tuple[str | None, float]:
+    """Key and value of the one that is given of a group of :data:`WAYS` (``None``, 0: none is). :class:`InputError`
+    names those that clash, or what is missing."""
+    where, (first, *others) = table.where, WAYS[table.where][group]
+    values = [(key, getattr(table, key)) for key in (first, *others)]
+    given = [(key, value) for key, value in values if value not in (None, getattr(type(table), key))]
     if len(given) > 1:
-        both = " and ".join(f"{where}.{name} = {value!r}" for name, value in given[:2])
+        both = " and ".join(f"{where}.{key} = {value!r}" for key, value in given[:2])
         raise InputError(f"{both} say the same thing: give one of them")
     if not given and required:
-        raise InputError(f"{where}.{next(iter(values))} is required (or {', '.join(list(values)[1:])})")
+        raise InputError(f"{where}.{first} is required (or {', '.join(others)})")
     return given[0] if given else (None, 0.0)
 
 
@@ -95,7 +97,7 @@ def _shear(beam: BeamTable, section: Section | None) -> dict[str, Any]:
 
 def _curvature(beam: BeamTable) -> float:
     """K, 1/m, of the bow: that of the circle through both ends and the middle."""
-    way, bow = _one_of("beam", {"curvature": beam.curvature, "sagitta": beam.sagitta, "dogleg": beam.dogleg})
+    way, bow = _one_of(beam, 0)
     _only_with("beam.sagitta_length", beam.sagitta_length, "beam.sagitta", way == "sagitta")
     if way == "curvature":
         return bow
@@ -111,8 +113,7 @@ def _curvature(beam: BeamTable) -> float:
 
 def _damping(beam: BeamTable, wave: float) -> dict[str, Any]:
     """η, s: ζ = ηω/2 for the damping ratio of a mode, ηω for the loss factor; or the hysteretic loss as it is."""
-    ways = {"damping": beam.damping, "damping_ratio": beam.damping_ratio, "loss_factor": beam.loss_factor}
-    way, amount = _one_of("beam", ways | {"hysteretic_loss": beam.hysteretic_loss or None}, required=False)
+    way, amount = _one_of(beam, 1, required=False)
     measured, frequency = way in ("loss_factor", "hysteretic_loss"), beam.loss_frequency
     _only_with("beam.loss_frequency", frequency, "beam.loss_factor or beam.hysteretic_loss", measured)
     if measured and frequency is None:
@@ -153,8 +154,7 @@ def _towards_wall(table: _ImpactTable) -> float:
 
 def _velocity(table: _ImpactTable, length: float, ends: tuple[str, str]) -> float:
     """V₀, m/s, at the first touch; with a held end, at the middle."""
-    ways = {name: getattr(table, name) for name in ("velocity", "drop_height", "angular_speed", "amplitude")}
-    way, given = _one_of("impact", ways)
+    way, given = _one_of(table, 0)
     _only_with("impact.angular_arm", table.angular_arm, "impact.angular_speed", way == "angular_speed")
     _only_with("impact.frequency", table.frequency, "impact.amplitude", way == "amplitude")
     if way == "velocity":
@@ -190,8 +190,7 @@ def _free_flight(table: _ImpactTable, values: Mapping[str, Any]) -> float:
     gravity, force = _gravity(table), values["axial_force"]
     _only_with("impact.gravity_angle", table.gravity_angle or None, "impact.gravity", gravity)
     if table.acceleration is not None:
-        _one_of("impact", {"acceleration": table.acceleration, "gravity": table.gravity})
-        return table.acceleration
+        return _one_of(table, 1)[1]
     if not gravity and not force:
         return 0.0
     bent = values["bending_stiffness"] * values["fourth_derivative"] + force * values["curvature"]
@@ -200,7 +199,7 @@ def _free_flight(table: _ImpactTable, values: Mapping[str, Any]) -> float:
 
 def _wall(wall: WallTable, mass_per_length: float) -> dict[str, Any]:
     """Fields of :class:`bent_beam.Impact` that the wall's table settles."""
-    way, amount = _one_of("wall", {"damping": wall.damping, "damping_ratio": wall.damping_ratio}, required=False)
+    way, amount = _one_of(wall, 0, required=False)
     if way is not None and wall.stiffness is None:
         raise InputError(f"wall.{way} has no effect on a rigid wall: give wall.stiffness too (got {amount!r})")
     if way == "damping_ratio":
