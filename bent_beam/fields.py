@@ -80,18 +80,19 @@ class Quantity:
         if whole:
             value = checks.whole(name, value, int(self.least or 0))
             return value if self.most is None else int(checks.between(name, value, self.least or 0, self.most))
-        size = abs(checks.finite(name, value))
-        if size > checks.LARGEST:
+        number = checks.finite(name, value)
+        if abs(number) > checks.LARGEST:
             raise InputError(f"{name} must not exceed {checks.LARGEST:g} (got {checks.shortened(value)})")
-        if self.above == 0.0 and 0.0 < size < 1.0 / checks.LARGEST:
+        if self.above == 0.0 and 0.0 < abs(number) < 1.0 / checks.LARGEST:
             raise InputError(f"{name} must be at least {1.0 / checks.LARGEST:g} (got {checks.shortened(value)})")
-        if self.above == 0.0:
-            checks.positive(name, value)
+        if self.above is not None and number <= self.above:
+            bound = f"more than {self.above:g}" if self.above else "positive"
+            raise InputError(f"{name} must be {bound} (got {checks.shortened(value)})")
         if self.most is not None:
             return checks.between(name, value, (self.above if self.least is None else self.least) or 0.0, self.most)
         if self.least == 0.0:
             return checks.non_negative(name, value)
-        return checks.finite(name, value) if self.least is None else checks.at_least(name, value, self.least)
+        return number if self.least is None else checks.at_least(name, value, self.least)
 
 
 PLAIN = Quantity("", "")

@@ -147,7 +147,9 @@ def test_what_a_run_keeps_is_instants_times_nodes_and_what_it_does_is_steps_time
             affordable("mesh", steps, 1_000, instants, most=1e7)
 
 
-def test_a_whole_number_obeys_its_bounds_and_an_error_without_advice_says_none():
+def test_a_number_obeys_its_bounds_and_an_error_without_advice_says_none():
+    with pytest.raises(ValueError, match=r"n must be more than 1 \(got 1.0\)"):
+        Quantity("", "of somebody's", above=1.0).checked_number("n", 1.0, whole=False)
     count = Quantity("", "of somebody's", least=2, most=5)
     assert [count.checked_number("n", value, whole=True) for value in (2, 5)] == [2, 5]
     for value in (1, 6):
