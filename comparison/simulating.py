@@ -12,7 +12,7 @@ from bent_beam.cases import Case
 from bent_beam.history import REFLECTED, ImpactHistory
 from bent_beam.hysteresis import converges
 from bent_beam.measure.estimators import leading_order
-from bent_beam.measure.moments import moments
+from bent_beam.measure.moments import lift, moments
 from bent_beam.measure.numbers import MISSING, Number
 from bent_beam.measure.reduction import hold_of, pull_of
 from bent_beam.measure.whole_impact import hits
@@ -77,7 +77,7 @@ class Simulated:
             "restitution": self._beside("restitution", None),
             "lambda0": self._beside("lambda0" if row else "", infinite.lambda0 if infinite else None),
             "r0": self._beside("r0" if row else "", infinite.r0 if infinite else None),
-            "lift": None if impact.off_centre else float(moments(history).lift[-1]),
+            "lift": None if impact.off_centre else float(lift(history)[-1]),
             "pull": pull_of(history),
             "hold": hold_of(history),
             **self._with_error("peak_moment"),
