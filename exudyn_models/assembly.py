@@ -23,7 +23,7 @@ from bent_beam.impact import BEFORE_WAVES_RETURN
 from bent_beam.meshes import Mesh, checked_nodes, mirrored, snapped
 from exudyn_models.contacts import Contact, ContactRun, Wall
 from exudyn_models.elements import Beam, Element
-from exudyn_models.elements.beam import VISCOSITY, VISCOSITY_EXPLICIT, VISCOSITY_SHEARED, Section
+from exudyn_models.elements.beam import VISCOSITY, VISCOSITY_EXPLICIT, VISCOSITY_SHEARED
 from exudyn_models.geometry import (
     MODEL_UNITS,
     STEEPEST,
@@ -114,15 +114,9 @@ def assemble(layout: Layout, chosen: Chosen, units: Units = MODEL_UNITS) -> tupl
     if factor is None:
         implicit = np.where(shape.lengths < scaling.shear_length, VISCOSITY_SHEARED, VISCOSITY)
         factor = VISCOSITY_EXPLICIT if explicit else implicit
-    section = Section(
-        axial_stiffness=_axial_stiffness(chosen.element.axial_stiffness, shape.slender, scaling),
-        axial_force=scaling.axial_force,
-        damping=scaling.impact.damping / scaling.end_time,
-        shear_length=scaling.shear_length,
-        rotary_inertia=scaling.rotary_inertia,
-        units=units,
-    )
-    beam = chosen.element.beam(system, shape, section, factor * element_times(shape.lengths, scaling.shear_length))
+    viscosity = factor * element_times(shape.lengths, scaling.shear_length)
+    axial_stiffness = _axial_stiffness(chosen.element.axial_stiffness, shape.slender, scaling)
+    beam = chosen.element.beam(system, shape, scaling, axial_stiffness, viscosity, units)
     hold = beam.hold_by_inertia if explicit else beam.fix
     across, turning = beam.vertical_coordinate, beam.rotation_coordinate
     held = {"free": (), "hinged": (across,), "clamped": (across, turning)}
@@ -137,8 +131,8 @@ def assemble(layout: Layout, chosen: Chosen, units: Units = MODEL_UNITS) -> tupl
     if scaling.load:
         beam.load_uniformly(scaling.load * scaling.amplitude)
     for node, sign, _ in reversed(ends):
-        _load_end(beam, node, sign, scaling, follows=layout.ends_follow)
-    run = chosen.contact.attach(beam, _wall(shape, scaling, chosen, beam.shears))
+        _load_end(beam, node, sign, follows=layout.ends_follow)
+    run = chosen.contact.attach(beam, _wall(beam, chosen))
     x = np.linspace(min(0.0, float(shape.x[0])), float(shape.x[-1]), 200)
     line = np.stack([x, shape.wall_curvature * x**2 / 2, np.zeros_like(x)], axis=1) * units.length
     seen = items.VObjectGround(graphicsData=[graphics.Lines(line.tolist(), color=GREY)])
@@ -160,8 +154,9 @@ def _axial_stiffness(asked: float | None, true: bool, scaling: Scaling) -> float
     return max(TAUT, abs(scaling.axial_force) / (STRETCH_LATER if later else STRETCH))
 
 
-def _wall(shape: Shape, scaling: Scaling, chosen: Chosen, shears: bool) -> Wall:
-    impact, s, explicit = scaling.impact, shape.s, chosen.integrator.explicit
+def _wall(beam: Beam, chosen: Chosen) -> Wall:
+    scaling, s, explicit = beam.scaling, beam.shape.s, chosen.integrator.explicit
+    impact = scaling.impact
     centre, near = int(np.argmin(np.abs(s))), NEAR * impact.length / scaling.length
     begin, end = (edge / scaling.length for edge in impact.wall_span)
     before = (s >= begin - near) & (s <= end + near)
@@ -170,8 +165,7 @@ def _wall(shape: Shape, scaling: Scaling, chosen: Chosen, shears: bool) -> Wall:
     lengths = np.where(before[1:] & before[:-1], np.diff(s), 0.0)
     first_spread = BEFORE_WAVES_RETURN * impact.slow_time_scale / scaling.end_time
     # a material that damps waves at grid scale makes hits plastic itself: more would stop nodes ahead of the wall
-    shortest = float(element_times(shape.lengths, scaling.shear_length).min())
-    damped = impact.damping > VISCOSITY * scaling.end_time * shortest
+    damped = scaling.material_damping > VISCOSITY * element_times(beam.lengths, scaling.shear_length).min()
     thin = thin_front(scaling.kappa) and not supports_or_plate(impact) and not damped
     opposite, stiffness = impact.opposite_wall, impact.wall_stiffness
     unit = impact.bending_stiffness / scaling.length ** (4 if lengths.any() else 3)
@@ -180,10 +174,9 @@ def _wall(shape: Shape, scaling: Scaling, chosen: Chosen, shears: bool) -> Wall:
         lengths=lengths,
         centre=centre,
         half=not chosen.full_beam,
-        scaling=scaling,
         first_spread=first_spread,
         plastic=chosen.plastic if thin and first_spread >= 1.0 and not explicit else 0.0,
-        lifts=impact.lifts or shears or impact.damping > 0.0 or impact.kappa_over_nu >= 1.0,
+        lifts=impact.lifts or beam.shears or impact.damping > 0.0 or impact.kappa_over_nu >= 1.0,
         explicit=explicit,
         opposite=None if opposite is None else -opposite / scaling.deflection,
         stiffness=None if stiffness is None else stiffness / unit,
@@ -191,10 +184,11 @@ def _wall(shape: Shape, scaling: Scaling, chosen: Chosen, shears: bool) -> Wall:
     )
 
 
-def _load_end(beam: Beam, node: int, sign: float, scaling: Scaling, *, follows: bool) -> None:
+def _load_end(beam: Beam, node: int, sign: float, *, follows: bool) -> None:
     """The moment and shear of the free motion y₀ if the end ``follows`` it, and the axial force: along x at the end of
     the beam itself unless it follows the bow, along the bow where the model cuts the beam."""
-    loads, a, x, force = scaling.loads, scaling.amplitude, float(beam.shape.s[node]), beam.section.axial_force
+    scaling, x = beam.scaling, float(beam.shape.s[node])
+    loads, a, force = scaling.loads, scaling.amplitude, scaling.axial_force
     impact, angle = scaling.impact, float(beam.shape.angle[node])  # of the beam's own end
     shear = turning = 0.0
     if follows:
@@ -210,8 +204,9 @@ def _load_end(beam: Beam, node: int, sign: float, scaling: Scaling, *, follows: 
     beam.load_node(node, beam.vertical_coordinate, sign * (force * math.sin(angle) - shear), sign * force * turning)
 
 
-def settings_of(chosen: Chosen, beam: Beam, contact: ContactRun, amplitude: float) -> Any:
+def settings_of(chosen: Chosen, beam: Beam, contact: ContactRun) -> Any:
     """Exudyn's settings of a run in model units, but for its steps; no tolerance is below round-off."""
+    amplitude = beam.scaling.amplitude
     round_off = max(contact.round_off, beam.round_off(amplitude))
     settings = chosen.solver.settings(amplitude, round_off, beam.axial_round_off())
     chosen.integrator.configure(settings)
@@ -235,5 +230,5 @@ def stable_step(beam: Beam, contact: ContactRun, integrator: Integrator) -> floa
     state[:, :4, 4:] = np.eye(4)
     state[:, 4:, :4], state[:, 4:, 4:] = -np.linalg.solve(mass, stiffness), -np.linalg.solve(mass, damping)
     largest = float(np.abs(np.linalg.eigvals(state)).max())
-    axial = math.sqrt(60.0 * beam.section.axial_stiffness) / beam.lengths.min()  # no frequency along x is above
+    axial = math.sqrt(60.0 * beam.axial_stiffness) / beam.lengths.min()  # no frequency along x is above
     return float(integrator.limit / max(largest, axial))

@@ -31,7 +31,7 @@ import numpy as np
 from bent_beam import Impact
 from bent_beam.errors import InputError
 from bent_beam.meshes import NodesMesh, ScaleFreeMesh
-from exudyn_models.assembly import Chosen, Layout, assemble, lay_out, settings_of, stable_step
+from exudyn_models.assembly import Chosen, assemble, lay_out, settings_of, stable_step
 from exudyn_models.contacts import ContactRun, Penalty, Rigid
 from exudyn_models.elements import Beam
 from exudyn_models.geometry import Array, Scaling, Units, supports_or_plate
@@ -90,10 +90,10 @@ def build(
     chosen = _chosen(method, impact, end)
     layout = lay_out(impact, end, chosen)
     beam, contact = assemble(layout, chosen, Units.si(layout.scaling))
-    settings = _settings(layout, chosen, beam, contact, save)
+    settings = _settings(chosen, beam, contact, save)
     if file is not None:
         settings.solution.file.write, settings.solution.file.name = True, file
-    sensors = _sensors(layout.scaling, beam, contact, 1.0 if chosen.full_beam else 2.0)
+    sensors = _sensors(beam, contact, 1.0 if chosen.full_beam else 2.0)
     beam.mbs.Assemble()  # what was added since
     return Built(
         mbs=beam.mbs,
@@ -143,10 +143,10 @@ def _equal_elements(impact: Impact, end: float) -> NodesMesh:
     return NodesMesh(tuple(rule.nodes(chosen_half_length(impact, end)).tolist()))
 
 
-def _settings(layout: Layout, chosen: Chosen, beam: Beam, contact: ContactRun, save: int) -> Any:
+def _settings(chosen: Chosen, beam: Beam, contact: ContactRun, save: int) -> Any:
     """Exudyn's settings: steps, integrator, and tolerances that are forces, as small as the deflections are."""
-    units, end = beam.units, layout.scaling.end_time
-    settings = settings_of(chosen, beam, contact, layout.scaling.amplitude)
+    units, end = beam.units, beam.scaling.end_time
+    settings = settings_of(chosen, beam, contact)
     time, stable = settings.timeIntegration, stable_step(beam, contact, chosen.integrator)
     Segment(0.0, end, chosen.integrator.segments(1.0, end, stable)[0].steps).lay(time)
     time.newton.absoluteTolerance *= units.force * max(1.0, units.length)  # some residuals are moments
@@ -157,9 +157,9 @@ def _settings(layout: Layout, chosen: Chosen, beam: Beam, contact: ContactRun, s
     return settings
 
 
-def _sensors(scaling: Scaling, beam: Beam, contact: ContactRun, copies: float) -> dict[str, int]:
+def _sensors(beam: Beam, contact: ContactRun, copies: float) -> dict[str, int]:
     """Sensors of the real impact, each a function of the system's state."""
-    mbs, units = beam.mbs, beam.units
+    mbs, units, scaling = beam.mbs, beam.units, beam.scaling
     lengths = np.ones(beam.size)  # of each coordinate: slopes have none
     lengths[beam.horizontal] = lengths[beam.vertical] = units.length
     middle = beam.vertical[int(np.argmin(np.abs(beam.shape.s)))]

@@ -61,7 +61,7 @@ class Scaling:
     front : √(2ν/κ), for choosing a resolution, never to make an answer: without a wall, y₀ = V₀t − Kx²/2 would be
         inside it up to x = √(2V₀t/K), that is λ₀ < √(2ν/κ).
     motion : y₀ − y_w over amplitude, x from first_touch (Λ); loads : the terms of it that load the ends.
-    shear_length : l_s/Λ, 0 without shear; rotary_inertia : J/(μΛ²).
+    shear_length : l_s/Λ, 0 without shear; rotary_inertia : J/(μΛ²); material_damping : η/T.
     axial_force : N Λ²/EI; load : uniform load per unit length over amplitude, under which y₀ is the motion without
         contact.
     """
@@ -89,6 +89,7 @@ class Scaling:
         self.load = impact.uniform_pressure * end_time / (impact.mass_per_length * impact.velocity)
         self.shear_length = impact.shear_length / self.length
         self.rotary_inertia = impact.shear_ratio * self.shear_length**2
+        self.material_damping = impact.damping / end_time
 
     def motion_of(self, kappa: float) -> FreeMotion:
         """``motion`` of a beam of curvature ``kappa``."""

@@ -182,21 +182,8 @@ class ExudynModel(Part):
         times, separation = separation_times(impact, longest, save), Separation(impact)
 
         def until(run: Recorder, t: float, q: Array, v: Array) -> bool:
-            scaling, beam = run.scaling, run.beam
-
-            def state() -> tuple[Array, Array, Array, float]:
-                energy = float(beam.kinetic_energy(v) + beam.strain_energy(q)) * scaling.energy
-                return (
-                    beam.shape.s * scaling.length,
-                    (run.wall_y - q[beam.vertical]) * scaling.deflection,
-                    v[beam.vertical] * scaling.velocity,
-                    energy * run.copies,
-                )
-
-            closed = bool(run.active.any())
-            if run.touched and not closed:
-                run.sum_up()
-            return separation(t * scaling.end_time, float(run.sums["pushed"]), state, closed=closed)
+            time, closed = t * run.scaling.end_time, bool(run.active.any())
+            return separation(time, run.pushes, lambda: run.whole_beam(q, v), closed=closed)
 
         parts = made_of(self.for_whole_beam(impact))
         return simulate(impact, end_time=float(times[-1]), save=times, progress=progress, until=until, **parts)
@@ -228,7 +215,8 @@ def simulate(
     """Simulate one impact with Exudyn: the history in SI units.
 
     end_time : s; None: 0.1 t*, but 0.01 T* at most.
-    save : number of saved instants after t = 0, spread evenly in √t, or their times, s; snapped to steps.
+    save : number of saved instants after t = 0, spread evenly in √t, or their times, s; snapped to steps. The run ends
+        with the last of them.
     view : watch the run in Exudyn's viewer, until its window is told to go on (Q or Escape); without a display a line
         on standard error says so.
     progress : called with the fraction stepping.

@@ -24,7 +24,7 @@ from bent_beam import ImpactHistory
 from bent_beam.files import ENERGIES
 from exudyn_models.contacts import ContactRun
 from exudyn_models.elements import Beam
-from exudyn_models.geometry import Array, Scaling
+from exudyn_models.geometry import Array
 from exudyn_models.integrators import Averages
 
 __all__ = ["Recorder"]
@@ -61,14 +61,14 @@ class Recorder:
 
     copies : of what is modelled in the whole beam.
     record : what is saved, model units, by the names of :mod:`bent_beam.history`.
-    sums : totals over all steps that are summed up, model units; of these ``pushed`` is the impulse of the pushes,
-        ``held_impulse`` that of the pulls, negative or zero.
-    touched : whether a contact has pushed or pulled that is not summed up.
+    sums : totals over all steps that are summed up, model units.
+    active : contact points that are closed, (contacts,); pushes : steps so far in which one pushed.
     """
 
-    def __init__(self, beam: Beam, contact: ContactRun, scaling: Scaling, half: bool, averages: Averages) -> None:
-        self.beam, self.contact, self.scaling, self.averages = beam, contact, scaling, averages
+    def __init__(self, beam: Beam, contact: ContactRun, half: bool, averages: Averages) -> None:
+        self.beam, self.contact, self.averages = beam, contact, averages
         shape, self.copies = beam.shape, 2.0 if half else 1.0
+        self.scaling = scaling = beam.scaling
         self.wall_y = shape.wall_y
         impact, natural = scaling.impact, scaling.impact.natural_curvature
         # what the bow has been bent by before the first touch
@@ -79,23 +79,23 @@ class Recorder:
         self.total = self.deepest = self.start_momentum = self.start_stored = 0.0
         driven = scaling.amplitude * scaling.motion_of(scaling.beam_kappa)(shape.s - shape.first_touch, 1.0, by_t=1)
         self.fastest = float(max(np.abs(shape.velocity_y).max(), np.abs(driven).max()))  # at first, by loads in the end
-        self.touched = False
+        self.pushes = 0
         self._averaged = np.zeros(contact.contact_s.size)  # contact force after the scheme's averages
         self._rows: list[tuple[Any, ...]] = []  # time, q, v, a, contact force, that along x; the first is old
         self._pending: list[int] = []  # rows that are saved
         self._largest: dict[str, Array] = defaultdict(lambda: np.zeros(3))  # see _keep_largest
 
-    def read(self, t: float, solution: tuple[Array, Array] | None = None) -> tuple[Array, Array]:
-        """Take the state at ``t``; ``solution``: its q and v, where they have been read already.
+    def read(self, t: float) -> tuple[Array, Array]:
+        """Take the state at ``t``: q and v. :meth:`sum_up` must follow before any of the sums is used.
 
-        :meth:`sum_up` must follow before any of the sums is used. Raises ``FloatingPointError`` for a state that is
-        not finite or has grown a thousandfold.
+        Raises ``FloatingPointError`` for a state that is not finite or has grown a thousandfold.
         """
         data = self.beam.mbs.systemData
-        q, v = (data.GetODE2Coordinates(), data.GetODE2Coordinates_t()) if solution is None else solution
-        a = data.GetODE2Coordinates_tt()
-        if not (math.isfinite(q @ q) and v @ v < (1e3 * self.fastest) ** 2):
-            self._check(q, v)
+        q, v, a = data.GetODE2Coordinates(), data.GetODE2Coordinates_t(), data.GetODE2Coordinates_tt()
+        if not math.isfinite(q @ q + v @ v):
+            raise FloatingPointError("the state is no longer finite")
+        if np.abs(v[self.beam.vertical]).max() > 1e3 * self.fastest:
+            raise FloatingPointError("velocities have grown a thousandfold: the integration is unstable")
         force, self.active = self.contact.forces(q, v)
         along = self.contact.along
         if not self._rows:
@@ -103,17 +103,23 @@ class Recorder:
             force, along = np.zeros_like(force), None if along is None else np.zeros_like(along)
             self.start_momentum = float(v @ self.momentum)
             self.start_stored = self.contact.stored_energy(q)
-        elif len(self._rows) == ROWS:
-            self.sum_up()
+        else:
+            self.pushes += bool(((self._rows[-1][4] + force) * self.contact.signs > 0.0).any())
+            if len(self._rows) == ROWS:
+                self.sum_up()
         self._rows.append((t, q, v, a, force, along))
-        self.touched = self.touched or bool(force.any())
         return q, v
 
-    def _check(self, q: Array, v: Array) -> None:
-        if not (np.isfinite(q).all() and np.isfinite(v).all()):
-            raise FloatingPointError("the state is no longer finite")
-        if np.abs(v[self.beam.vertical]).max() > 1e3 * self.fastest:
-            raise FloatingPointError("velocities have grown a thousandfold: the integration is unstable")
+    def whole_beam(self, q: Array, v: Array) -> tuple[Array, Array, Array, float]:
+        """x, gap (m) and velocity (m/s) of the nodes, and the energy of the whole beam (J), as
+        :class:`bent_beam.free_flight.Separation` asks for them."""
+        scaling, beam = self.scaling, self.beam
+        return (
+            beam.shape.s * scaling.length,
+            (self.wall_y - q[beam.vertical]) * scaling.deflection,
+            v[beam.vertical] * scaling.velocity,
+            float(beam.kinetic_energy(v) + beam.strain_energy(q)) * scaling.energy * self.copies,
+        )
 
     def save(self, t: float, q: Array) -> None:
         """Keep the state last read, q at ``t``; the rest of the record follows when it is summed up."""
@@ -137,7 +143,7 @@ class Recorder:
         y, slope = q[:, beam.vertical] - self.wall_y, beam.slope(q) - beam.shape.wall_slope
         moments = beam.bending_moments(q) + self.unbent
         now = {"y": y, "velocity": v[:, beam.vertical], "slope": slope, "total_impulse": total}
-        if beam.section.shear_length:
+        if beam.scaling.shear_length:
             now |= {"angular_velocity": v[:, beam.rotation], "bending_moment": nodal_means(moments)}
         for name, values in (after | now).items():
             self.record[name] += [values[k].copy() for k in saved]
@@ -152,7 +158,6 @@ class Recorder:
             depth = y[late][:, self.contact.nodes].max(axis=1)  # what lies beyond them is let through
             self.deepest = max(self.deepest, float((depth / time[late]).max()))
         self._pending, self._rows = [], self._rows[-1:]
-        self.touched = bool(force[-1].any())
 
     def _note_moments(self, moments: Array) -> None:
         """The largest bending moment since the saved instant before, its place, and the one in the middle."""
@@ -200,7 +205,6 @@ class Recorder:
         gains = {
             "contact_work": products(mean, np.diff(depth, axis=0)),
             "held_impulse": pulls.sum(axis=1),
-            "pushed": np.maximum(pushes, 0.0).sum(axis=1),
         }
         if contact.along is not None:
             moved = np.diff(q[:, self.beam.horizontal[contact.nodes]], axis=0)

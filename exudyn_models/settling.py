@@ -24,7 +24,7 @@ import numpy as np
 
 from exudyn_models.contacts import ContactRun
 from exudyn_models.contacts.base import TINY
-from exudyn_models.geometry import Array, Flags
+from exudyn_models.geometry import Flags
 
 __all__ = ["ANY", "Settling"]
 
@@ -38,7 +38,6 @@ class Settling:
     iterations : most repetitions of a step; tolerance : force, model units. Exudyn's own tolerance is :data:`ANY`.
     steps, cycles, unsettled : steps seen, those accepted though no contact state was consistent, and those that ran
         out of repetitions; first : what happened in the first of these.
-    solution : q and v last looked at.
     """
 
     def __init__(self, contact: ContactRun, iterations: int, tolerance: float) -> None:
@@ -54,7 +53,6 @@ class Settling:
         self._cycling = False
         self._imposed: Flags | None = None
         self.first = ""
-        self.solution: tuple[Array, Array] | None = None
 
     def __call__(self, mbs: Any, time: float) -> list[float]:
         if time != self._time:
@@ -65,7 +63,7 @@ class Settling:
         data, closed = mbs.systemData, self._imposed
         if closed is None:
             closed = data.GetDataCoordinates()[:: self._contact.states] <= 0.0
-        q, v = self.solution = data.GetODE2Coordinates(), data.GetODE2Coordinates_t()
+        q, v = data.GetODE2Coordinates(), data.GetODE2Coordinates_t()
         if self._contact.imposes and np.array_equal(self._contact.closed_by(q, v), closed):
             return self._accept(mbs, closed)
         wrong = self._contact.contradictions(q, v, closed)

@@ -60,7 +60,8 @@ def run(
     record, failure, advice = stepping.run, stepping.failure, stepping.advice
     if failure is not None and not record.record["time"]:
         raise SimulationError(failure, time=0.0, step=0, advice=advice)
-    settings = {"end_time": end, "save": np.asarray(save).tolist(), "full_beam": chosen.full_beam}
+    saved = targets[: stepping.saved] * end if stepping.left else np.asarray(save)  # what a rerun needs
+    settings = {"end_time": end, "save": saved.tolist(), "full_beam": chosen.full_beam}
     settings |= _described(layout, chosen, stepping)
     settings["wall_seconds"] = clock.perf_counter() - began
     about = {"steps": stepping.steps, "seconds": stepping.seconds, "completed": failure is None}
@@ -74,22 +75,25 @@ def run(
 
 
 def saved_times(save: Save, end: float) -> Array:
-    """The times to save in units of ``end``, ascending, after 0; the last is the end itself. Raises ``ValueError``."""
+    """The times to save in units of ``end``, ascending, after 0. Raises ``ValueError``."""
     if isinstance(save, (int, np.integer)):
         if whole("save", int(save), 1) > MOST_INSTANTS:
             raise InputError(f"save must be at most {MOST_INSTANTS} instants (got {save})")
         return np.asarray((np.arange(1, save + 1) / save) ** 2)
     times = np.unique(np.asarray(save, float)) / end
-    if times.ndim != 1 or not np.isfinite(times).all() or (times < 0.0).any() or (times > 1.0 + 1e-9).any():
-        raise InputError(f"save must be a number of instants or times from 0 to the end time {end:.6g} s")
-    return np.append(times[(times > 0.0) & (times < 1.0 - 1e-9)], 1.0)
+    if not (times.any() and (times >= 0.0).all() and (times <= 1.0 + 1e-9).all()):  # neither has a NaN
+        raise InputError(f"save must be a number of instants or times from 0 to the end time {end:.6g} s, not 0 alone")
+    return np.minimum(times[times > 0.0], 1.0)
 
 
 def _described(layout: Layout, chosen: Chosen, stepping: Stepping) -> dict[str, Any]:
     """The parts and what was chosen with them, JSON-ready; times in s, lengths in m."""
     scaling, segments, settling = layout.scaling, stepping.segments, stepping.settling
     settings: dict[str, Any] = {n: describe(part) for n, part in vars(chosen).items() if is_dataclass(part)}
-    settings["contact"] |= stepping.run.contact.chosen
+    if scaling.impact.wall_stiffness is None:
+        settings["contact"] |= stepping.run.contact.chosen
+    else:  # its contact is none that can be asked for
+        settings["contact"] = None
     settings |= {
         "hold": stepping.run.hold(),
         "nodes": int(layout.shape.s.size),

@@ -50,7 +50,7 @@ class NewtonSolver(Part):
         bool, Quantity("", "start from the accelerations at t = 0 instead of from zero")
     ] = True
 
-    def settings(self, amplitude: float, round_off: float = 0.0, along: float = 0.0) -> Any:
+    def settings(self, amplitude: float, round_off: float, along: float) -> Any:
         """Fresh ``exudyn.SimulationSettings`` with these choices and no files; ``round_off`` of a force across the
         beam, and of one ``along`` it."""
         settings = exu.SimulationSettings()

@@ -53,10 +53,11 @@ class Stepping:
     """A run under way, and Exudyn's ``PostStepUserFunction``: it reads every step, saves the state where asked and lets
     the contact switch connectors.
 
-    targets : times to save, model units; each is saved at the first end of a step at or after it.
-    until, progress : see :func:`exudyn_models.simulate`.
+    targets : times to save, model units; each is saved at the first end of a step at or after it, the run ends with
+        the last. until, progress : see :func:`exudyn_models.simulate`.
     run : the recorder; segments, flight, stable : the steps, those of a beam far off the wall (0: alike), and the
         longest that an explicit integrator bears, model units.
+    saved : how many targets; left : whether ``until`` has ended the run.
     steps : done; seconds : inside Exudyn; failure : what failed, ``None`` when nothing did; advice : what to try then.
 
     Raises ``ValueError`` for more work than one run takes.
@@ -76,19 +77,21 @@ class Stepping:
                 f"mesh: {nodes} nodes on the Exudyn path, {MOST_NODES} are the most (memory); larger elements"
             )
         beam, contact = assemble(layout, chosen)
-        self.run = Recorder(beam, contact, scaling, not chosen.full_beam, integrator.averages())
+        self.run = Recorder(beam, contact, not chosen.full_beam, integrator.averages())
         self.stable = stable_step(beam, contact, integrator)
         crossing = min(0.01, (layout.places[1] / scaling.front) ** 2)
         self.segments = integrator.segments(crossing, scaling.end_time, self.stable)
         self.flight = (getattr(integrator, "flight_step", None) or 0.0) / scaling.end_time
         steps = sum(segment.steps for segment in self.segments)
         affordable("exudyn.integrator and mesh", steps, nodes, targets.size, MOST_WORK)
+        last = float(targets[-1])
         if until is not None:  # most beams have left after a T*
-            steps = round(steps * min(1.0, scaling.impact.slow_time_scale / scaling.end_time))
+            last = min(last, scaling.impact.slow_time_scale / scaling.end_time)
+        steps = round(steps * last)
         if (expected := SECONDS * steps * nodes) > LONG:
             so_long = "up to" if self.flight else "about"
             LOG.warning("%s %.2g minutes: %d steps of %d nodes", so_long, expected / 60.0, steps, nodes)
-        self.settings = settings_of(chosen, beam, contact, scaling.amplitude)
+        self.settings = settings_of(chosen, beam, contact)
         self.solver = integrator.solver()
         self.settling: Settling | None = None  # explicit steps are not repeated
         if contact.iterated and not integrator.explicit:
@@ -101,9 +104,12 @@ class Stepping:
         self.failure: str | None = None
         self.advice = ADVICE
         self._time = self._step = 0.0  # of the last step, model units
-        self._saved = 0  # targets
-        self._left = False  # ``until`` has ended the run
+        self.saved, self.left = 0, False
         self._error: BaseException | None = None
+
+    @property
+    def _over(self) -> bool:
+        return self.left or self.saved == self.targets.size
 
     @property
     def _unsettled(self) -> bool:
@@ -123,17 +129,17 @@ class Stepping:
         run = self.run
         if time <= self._time:  # Exudyn calls at the start of a segment, too
             return True
-        q, v = run.read(time, None if self.settling is None else self.settling.solution)
+        q, v = run.read(time)
         self._time, self._state = time, (q, v)
         self.steps += 1
-        if self.progress is not None and (self.steps % BETWEEN == 0 or time >= 1.0 - 1e-9):
-            self.progress(time)
-        if self._saved < self.targets.size and time >= self.targets[self._saved] * (1.0 - 1e-9):
+        if time >= self.targets[self.saved] * (1.0 - 1e-9):
             run.save(time, q)
-            self._saved = int(np.searchsorted(self.targets, time * (1.0 + 1e-9), side="right"))
-            self._left = self.until is not None and self.until(run, time, q, v)
-            if self._left:
-                return False
+            self.saved = int(np.searchsorted(self.targets, time * (1.0 + 1e-9), side="right"))
+            self.left = self.until is not None and self.until(run, time, q, v)
+        if self.progress is not None and (self.steps % BETWEEN == 0 or self.saved == self.targets.size):
+            self.progress(min(1.0, time / self.targets[-1]))
+        if self._over:
+            return False
         if run.contact.between(time, self._step, q, v):
             mbs.solverSignalJacobianUpdate = True
         return True
@@ -164,7 +170,7 @@ class Stepping:
             if self._started(self.segments[0]):
                 mbs.SetPostStepUserFunction(self)
                 for segment in self._in_flight() if self.flight else self.segments:
-                    if self.failure is None and not self._left:
+                    if self.failure is None and not self._over:
                         self._step_through(segment)
         except FloatingPointError as error:
             self.failure = str(error)
@@ -193,7 +199,7 @@ class Stepping:
     def _in_flight(self) -> Iterator[Segment]:
         """Segments whose steps grow with the smallest gap, from those near the wall up to ``flight``."""
         vertical, short, step, t = self.run.beam.vertical, self.segments[0].length, 0.0, 0.0
-        while t < 1.0 - 1e-9 and not self._left:
+        while t < 1.0 - 1e-9 and not self._over:
             step = min(max(short, step), self.flight)
             count = math.ceil(min(FLIGHT_BLOCK if step > short else WALL_BLOCK, (1.0 - t) / step) - 1e-9)
             start, t = t, min(t + count * step, 1.0)
@@ -211,7 +217,7 @@ class Stepping:
         self.seconds += clock.perf_counter() - began
         if self._error is not None:
             raise self._error
-        if not solved and not self._left:
+        if not solved and not self._over:
             self._failed(str(self.solver.GetErrorString()))
         elif self.settling is not None and self._unsettled:
             self.failure, self.advice = self.settling.first, UNSETTLED

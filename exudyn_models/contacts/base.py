@@ -26,7 +26,7 @@ from bent_beam import Impact
 from bent_beam.errors import InputError
 from bent_beam.fields import Part, Quantity
 from exudyn_models.elements.beam import Beam, Element, shares
-from exudyn_models.geometry import Array, Flags, Geometry, Indices, LinearLimit, Scaling
+from exudyn_models.geometry import Array, Flags, Geometry, Indices, LinearLimit
 from exudyn_models.integrators import GeneralizedAlpha, Integrator
 from exudyn_models.solvers import NewtonSolver
 
@@ -56,7 +56,6 @@ class Wall:
     lengths: Array
     centre: int
     half: bool
-    scaling: Scaling
     first_spread: float
     plastic: float
     lifts: bool

@@ -58,10 +58,10 @@ def matched(element: float, shear_length: float, damping: float) -> bool:
 
 def chosen_stiffness(beam: Beam, wall: Wall) -> float:
     """C of the module's text: 10, or what the front asks for at the end of the run."""
-    s, front = beam.shape.s, wall.scaling.front
+    s, front = beam.shape.s, beam.scaling.front
     k = min(max(int(np.searchsorted(s, front)), 1), s.size - 1)
     length = s[k] - s[k - 1]
-    asked = front**2 * element_times(length, beam.section.shear_length) / length / s[k]
+    asked = front**2 * element_times(length, beam.scaling.shear_length) / length / s[k]
     late = beam.shears and wall.first_spread < 1.0  # steps follow shear waves, and not the front
     return STIFFNESS if late else max(STIFFNESS, float(asked) ** 2)
 
@@ -90,8 +90,6 @@ class PenaltyRun(ContactRun):
         self.strip: HeldStrip = strip
         self.stiffness, self.damping = stiffness, damping
         self.held = np.zeros(nodes.size, bool)
-        self._of: tuple[Array | None, Array | None] = None, None
-        self._force = np.zeros(nodes.size)
         markers = [beam.marker(int(node), beam.vertical_coordinate) for node in nodes]
         self.connectors = [beam.mbs.AddObject(self._connector(k, marker)) for k, marker in enumerate(markers)]
         if strip.until:
@@ -120,10 +118,7 @@ class PenaltyRun(ContactRun):
         )
 
     def _spring_and_dashpot(self, q: Array, v: Array) -> Array:
-        if self._of[0] is not q or self._of[1] is not v:  # one solution is looked at more than once
-            self._of = q, v
-            self._force = self.stiffness * self.depth(q) + self.damping * (self.signs * v[self.coordinates])
-        return self._force
+        return np.asarray(self.stiffness * self.depth(q) + self.damping * (self.signs * v[self.coordinates]))
 
     def closed_by(self, q: Array, v: Array) -> Flags:
         return self._spring_and_dashpot(q, v) > 0.0
@@ -216,16 +211,17 @@ class Penalty(Contact):
         if stiffness is None:
             stiffness = chosen_stiffness(beam, wall)
         if damping is None:
-            own = matched(float(beam.lengths.min()), beam.section.shear_length, beam.section.damping)
+            own = matched(float(beam.lengths.min()), beam.scaling.shear_length, beam.scaling.material_damping)
             damping = MATCHED if own else PLASTIC * plastic if plastic else DAMPING
             damping *= math.sqrt(stiffness / STIFFNESS)
-        k, d = penalty_per_length(element_times(local, beam.section.shear_length), stiffness, damping)
+        k, d = penalty_per_length(element_times(local, beam.scaling.shear_length), stiffness, damping)
         if self.stiffness is not None:
-            k = np.full_like(k, self.stiffness / wall.scaling.stiffness)
+            k = np.full_like(k, self.stiffness / beam.scaling.stiffness)
         if self.damping is not None:
-            d = np.full_like(d, self.damping / wall.scaling.damping)
+            d = np.full_like(d, self.damping / beam.scaling.damping)
         strip = HeldStrip(wall, self.hold, 0.0 if plastic and self.hold_start is None else self.hold_start)
-        about = {"relative_stiffness": stiffness, "relative_damping": damping}
+        chosen = {"stiffness": stiffness, "damping": damping}
+        about = {f"relative_{name}": one for name, one in chosen.items() if getattr(self, name) is None}
         return PenaltyRun(beam, wall, k * length, d * length, strip, about)
 
 

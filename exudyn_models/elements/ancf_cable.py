@@ -38,7 +38,7 @@ class _Cable(Beam):
 
     def node(self, i: int) -> Any:
         shape, (place, velocity) = self.shape, self.at_first(i)
-        cos, sin, stretched = np.cos(shape.angle[i]), np.sin(shape.angle[i]), 1.0 + self.section.stretch
+        cos, sin, stretched = np.cos(shape.angle[i]), np.sin(shape.angle[i]), 1.0 + self.stretch
         turning, rate = shape.angular_velocity[i], 1.0 / self.units.time
         return items.NodePoint2DSlope1(
             referenceCoordinates=[shape.s[i] * self.units.length, 0.0, 1.0, 0.0],
@@ -52,7 +52,7 @@ class _Cable(Beam):
             length=self.lengths[i] * units.length,
             massPerLength=units.mass_per_length,
             bendingStiffness=units.bending_stiffness,
-            axialStiffness=self.section.axial_stiffness * units.force,
+            axialStiffness=self.axial_stiffness * units.force,
             bendingDamping=self.viscosity[i] * units.bending_stiffness * units.time,
             referenceCurvature=self.shape.curvature / units.length,
             nodeNumbers=[self.nodes[i], self.nodes[i + 1]],
@@ -88,7 +88,7 @@ class _Cable(Beam):
         rate = u1 * y2 + along * w2 - w1 * x2 - y1 * u2 - 2.0 * bent * (along * u1 + y1 * w1)
         rate /= along**2 + y1**2
         work = ((rate[1:] + rate[:-1]) / 2 * np.diff(bent, axis=0)).mean(axis=-1) * self.lengths
-        return work @ self.grid_viscosity, work.sum(axis=-1) * self.section.damping
+        return work @ self.grid_viscosity, work.sum(axis=-1) * self.scaling.material_damping
 
     def bending_moments(self, q: Array) -> Array:
         (x1, x2), (y1, y2) = self._fields(q, 0, AT_ENDS, 1, 2), self._fields(q, 1, AT_ENDS, 1, 2)

@@ -17,9 +17,9 @@ from scipy.sparse import csr_matrix
 
 from bent_beam import Impact
 from bent_beam.fields import Part, Quantity
-from exudyn_models.geometry import MODEL_UNITS, Array, Indices, Shape, Units, element_times
+from exudyn_models.geometry import Array, Indices, Scaling, Shape, Units, element_times
 
-__all__ = ["Beam", "Element", "Section", "shares"]
+__all__ = ["Beam", "Element", "shares"]
 
 VISCOSITY = 0.15  # of √(EIμ)Δx² of an element, λ₀ is off in proportion; tests/comparison/test_constants.py
 VISCOSITY_SHEARED = 0.015  # of an element shorter than l_s, in its own time; with 0.15 the first moments are 7 % low
@@ -31,24 +31,6 @@ INERTIA = 1e9  # that no load moves
 Matrix = Any  # SciPy's sparse matrices carry no types
 
 
-@dataclass(frozen=True)
-class Section:
-    """Of the beam in its model's units; ``damping`` is the Kelvin–Voigt time of the material; ``shear_length`` l_s is 0
-    without shear. units : of Exudyn's items."""
-
-    axial_stiffness: float
-    axial_force: float
-    damping: float
-    shear_length: float = 0.0
-    rotary_inertia: float = 0.0
-    units: Units = MODEL_UNITS
-
-    @property
-    def stretch(self) -> float:
-        """Strain under the axial force."""
-        return self.axial_force / self.axial_stiffness
-
-
 def shares(lengths: Array) -> Array:
     """Length that each node stands for of elements of ``lengths``, shape (nodes,)."""
     half = np.pad(lengths / 2, 1)
@@ -56,8 +38,10 @@ def shares(lengths: Array) -> Array:
 
 
 class Beam(ABC):
-    """A beam in an Exudyn system ``mbs``, whose first nodes are the beam's; ``viscosity`` of each element, (elements,).
+    """A beam in an Exudyn system ``mbs``, whose first nodes are the beam's.
 
+    axial_stiffness : EAΛ²/EI; grid_viscosity, viscosity : of each element without and with the material's, (elements,);
+        units : of Exudyn's items; stretch : strain under the axial force.
     size : coordinates of the system; horizontal, vertical, rotation : those of the nodes, (nodes,).
     load, load_rate : forces on them, (size,), at t = 0 and by time; upward : 1 where they are y.
     """
@@ -66,10 +50,12 @@ class Beam(ABC):
     vertical_coordinate = 1
     rotation_coordinate: int
 
-    def __init__(self, mbs: Any, shape: Shape, section: Section, viscosity: Array) -> None:
-        self.mbs, self.shape, self.section, self.units = mbs, shape, section, section.units
-        self.grid_viscosity = viscosity
-        self.viscosity = viscosity + section.damping
+    def __init__(
+        self, mbs: Any, shape: Shape, scaling: Scaling, axial_stiffness: float, grid_viscosity: Array, units: Units
+    ) -> None:
+        self.mbs, self.shape, self.scaling, self.units = mbs, shape, scaling, units
+        self.axial_stiffness, self.stretch = axial_stiffness, scaling.axial_force / axial_stiffness
+        self.grid_viscosity, self.viscosity = grid_viscosity, grid_viscosity + scaling.material_damping
         self.lengths = shape.lengths
         self.tributary = shares(self.lengths)
         each = self.rotation_coordinate + 1
@@ -87,13 +73,13 @@ class Beam(ABC):
     @property
     def shears(self) -> bool:
         """Whether elements are short enough for shear waves to be what they resolve."""
-        return float(self.lengths.min()) < self.section.shear_length
+        return float(self.lengths.min()) < self.scaling.shear_length
 
     def at_first(self, i: int) -> tuple[list[float], list[float]]:
         """Displacement and velocity along x and y of node ``i`` at the first contact, for Exudyn's item."""
         shape, length = self.shape, self.units.length
         speed = length * (1.0 / self.units.time)
-        x = (1.0 + self.section.stretch) * shape.x[i] - shape.s[i]
+        x = (1.0 + self.stretch) * shape.x[i] - shape.s[i]
         return [x * length, shape.y[i] * length], [shape.velocity_x[i] * speed, shape.velocity_y[i] * speed]
 
     @abstractmethod
@@ -111,17 +97,17 @@ class Beam(ABC):
         At most ``MOST_ROUNDED`` times ``velocity``, the amplitude of the model: where it is larger, Newton's method
         stops, and nothing is hidden.
         """
-        stiffness = 12.0 * self.lengths / element_times(self.lengths, self.section.shear_length) ** 2
+        stiffness = 12.0 * self.lengths / element_times(self.lengths, self.scaling.shear_length) ** 2
         deflections = np.abs(self.shape.y)
         forces = stiffness * (np.maximum(deflections[:-1], deflections[1:]) + self.viscosity * velocity)
         return min(float(ROUNDED * np.finfo(float).eps * forces.max()), MOST_ROUNDED * velocity)
 
     def axial_round_off(self) -> float:
         """Force along a beam under an axial force that means nothing: a strain is a difference of places. 0 without."""
-        if not self.section.axial_force:
+        if not self.scaling.axial_force:
             return 0.0
         places = float(np.abs(self.shape.s).max()) / self.lengths.min()
-        return float(ROUNDED * np.finfo(float).eps * self.section.axial_stiffness * places)
+        return float(ROUNDED * np.finfo(float).eps * self.axial_stiffness * places)
 
     def marker(self, node: int, coordinate: int) -> Any:
         """A marker on one coordinate of the ``node``-th node."""
@@ -199,7 +185,7 @@ class Beam(ABC):
     def _damping(self) -> tuple[Matrix, Matrix]:
         """Matrices of the system, of the viscosity at grid scale and of the material's."""
         _, _, damped = self.element_matrices()
-        grid, material = self.grid_viscosity[:, None, None] * damped, self.section.damping * damped
+        grid, material = self.grid_viscosity[:, None, None] * damped, self.scaling.material_damping * damped
         where = self.vertical, self.rotation
         return self._assembled(grid, *where), self._assembled(material, *where)
 
@@ -232,17 +218,17 @@ class Beam(ABC):
 
     def axial_energy(self, q: Array) -> Array:
         """Less that of the stretch under the axial force."""
-        square = self.axial_strain(q) ** 2 - self.section.stretch**2
-        return self.section.axial_stiffness * self._integral(square) / 2
+        square = self.axial_strain(q) ** 2 - self.stretch**2
+        return self.axial_stiffness * self._integral(square) / 2
 
     def strain_energy(self, q: Array) -> Array:
         """What the beam holds but for :meth:`stretch_energy`."""
         bending = self.bending_energy(q)
-        return bending if self.section.axial_force else bending + self.axial_energy(q)
+        return bending if self.scaling.axial_force else bending + self.axial_energy(q)
 
     def stretch_energy(self, q: Array) -> Array:
         """What an axial force keeps in the beam that it stretches, the same along all of it; 0 without one."""
-        return self.axial_energy(q) if self.section.axial_force else np.zeros(q.shape[:-1])
+        return self.axial_energy(q) if self.scaling.axial_force else np.zeros(q.shape[:-1])
 
     @abstractmethod
     def element_matrices(self) -> tuple[Array, Array, Array]:

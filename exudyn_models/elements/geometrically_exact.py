@@ -16,8 +16,8 @@ from typing import Any, ClassVar
 import exudyn.itemInterface as items
 import numpy as np
 
-from exudyn_models.elements.beam import Beam, Element, Section
-from exudyn_models.geometry import Array, Shape
+from exudyn_models.elements.beam import Beam, Element
+from exudyn_models.geometry import Array, Scaling, Shape
 
 __all__ = ["GeometricallyExact"]
 
@@ -28,12 +28,12 @@ RIGID_SHEAR, LITTLE_ROTARY = 100.0, 0.01  # in EI/Δx² and μΔx², of a beam w
 class _Exact(Beam):
     rotation_coordinate = 2
 
-    def __init__(self, mbs: Any, shape: Shape, section: Section, viscosity: Array) -> None:
+    def __init__(self, mbs: Any, shape: Shape, scaling: Scaling, *more: Any) -> None:
         self.shear_stiffness, self.rotary_inertia = RIGID_SHEAR / shape.lengths**2, LITTLE_ROTARY * shape.lengths**2
-        if section.shear_length:
-            self.shear_stiffness = np.full_like(shape.lengths, section.shear_length**-2)
-            self.rotary_inertia = np.full_like(shape.lengths, section.rotary_inertia)
-        super().__init__(mbs, shape, section, viscosity)
+        if scaling.shear_length:
+            self.shear_stiffness = np.full_like(shape.lengths, scaling.shear_length**-2)
+            self.rotary_inertia = np.full_like(shape.lengths, scaling.rotary_inertia)
+        super().__init__(mbs, shape, scaling, *more)
 
     def node(self, i: int) -> Any:
         shape, (place, velocity) = self.shape, self.at_first(i)
@@ -52,16 +52,16 @@ class _Exact(Beam):
             massPerLength=units.mass_per_length,
             crossSectionInertia=self.rotary_inertia[i] * units.mass_per_length * units.length**2,
             bendingStiffness=units.bending_stiffness,
-            axialStiffness=self.section.axial_stiffness * units.force,
+            axialStiffness=self.axial_stiffness * units.force,
             shearStiffness=shear_stiffness,
             bendingDamping=viscosity * units.bending_stiffness,
-            shearDamping=viscosity * shear_stiffness if self.section.shear_length else 0.0,
+            shearDamping=viscosity * shear_stiffness if self.scaling.shear_length else 0.0,
             referenceCurvature=self.shape.curvature / units.length,
         )
 
     def slope(self, q: Array) -> Array:
         angle = q[..., self.rotation]
-        return np.asarray(np.tan(angle) if self.shape.slender and not self.section.shear_length else angle)
+        return np.asarray(np.tan(angle) if self.shape.slender and not self.scaling.shear_length else angle)
 
     def _strains(self, q: Array) -> tuple[Array, Array]:
         """ε and γ of each element."""
@@ -106,7 +106,7 @@ class _Exact(Beam):
         row = np.stack([-np.ones_like(half), -half, np.ones_like(half), -half], axis=1) / self.lengths[:, None]
         shear = (self.shear_stiffness * self.lengths)[:, None, None] * row[:, :, None] * row[:, None, :]
         stiffness = bending + shear
-        return mass, stiffness, stiffness if self.section.shear_length else bending
+        return mass, stiffness, stiffness if self.scaling.shear_length else bending
 
 
 @dataclass(frozen=True)

@@ -50,7 +50,7 @@ def test_recorded_moments_are_those_that_exudyn_puts_out(impact: Impact) -> None
     data.SetODE2Coordinates(q)
     data.SetODE2Coordinates_t(np.zeros_like(q))
     kind = exu.OutputVariableType.TorqueLocal
-    middles = np.zeros(beam.lengths.size) if beam.section.shear_length else beam.lengths / 2  # as Exudyn counts places
+    middles = np.zeros(beam.lengths.size) if beam.scaling.shear_length else beam.lengths / 2  # as Exudyn counts places
     theirs = [beam.mbs.GetObjectOutputBody(body, kind, [at, 0.0, 0.0]) for body, at in zip(beam.bodies, middles)]
     theirs = np.array(theirs).reshape(beam.lengths.size, -1)[:, -1]
     assert beam.bending_moments(q).mean(axis=-1) == pytest.approx(theirs, rel=1e-6, abs=1e-7 * np.abs(theirs).max())

@@ -13,7 +13,7 @@ import hermite_fe
 from bent_beam import Impact, ImpactHistory
 from bent_beam.meshes import UniformMesh
 from comparison.compare import rerun_history
-from exudyn_models.contacts import Rigid, SegmentFriction
+from exudyn_models.contacts import Penalty, Rigid, SegmentFriction
 from exudyn_models.elements import GeometricallyExact
 from exudyn_models.geometry import TrueGeometry
 from exudyn_models.integrators import RK44, Newmark
@@ -155,6 +155,15 @@ def test_twins_have_the_same_history_to_round_off(kind, scales):
 def test_a_stored_history_is_enough_to_run_it_again_and_then_is_the_same_bit_for_bit(kind, tmp_path):
     found = rerun_history(ImpactHistory.load(simulated(kind).save(tmp_path / "run.nc")))
     assert found["identical"], found
+
+
+@pytest.mark.parametrize(("wall", "contact"), [(None, Penalty(stiffness=1e5)), (1e3, None)])
+def test_an_exudyn_run_to_separation_is_run_again_as_far_as_it_went(wall, contact):
+    method = exudyn_models.ExudynModel(mesh=UniformMesh(1 / 16), contact=contact)
+    impact = Impact.whole_beam(2.0, relative_damping=1e-2).replace(wall_stiffness=wall)
+    history = method.simulate_to_separation(impact, save=100)
+    assert history.settings["save"][-1] == pytest.approx(history.time[-1], rel=1e-2)
+    assert rerun_history(history)["identical"]
 
 
 def test_a_history_that_is_another_by_its_last_bit_is_not_the_same():
