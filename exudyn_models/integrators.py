@@ -66,11 +66,7 @@ class Integrator(Part, ABC):
     limit: ClassVar[float] = math.inf  # of step × largest frequency
     time_step: float | None
 
-    def with_steps(self) -> Self:
-        """A copy whose steps are not open."""
-        return self
-
-    def refined(self, factor: float) -> Integrator:
+    def refined(self, factor: float) -> Self:
         """A copy with steps ``factor`` times shorter; what is not chosen yet stays open."""
         steps = {name: getattr(self, name, None) for name in ("time_step", "relative_step", "flight_step")}
         return dataclasses.replace(self, **{name: step / factor for name, step in steps.items() if step is not None})
@@ -117,9 +113,10 @@ class Implicit(Integrator):
                 f"{self.flight_step!r} and {self.time_step!r})"
             )
 
-    def with_steps(self) -> Self:
-        is_open = self.time_step is None and self.relative_step is None
-        return dataclasses.replace(self, relative_step=self.default_step) if is_open else self
+    @property
+    def is_open(self) -> bool:
+        """Whether nobody asked for steps."""
+        return self.time_step is None and self.relative_step is None
 
     def segments(self, first: float, unit: float, stable: float) -> list[Segment]:
         if self.time_step is None:
@@ -149,14 +146,6 @@ class GeneralizedAlpha(Implicit):
         settings.timeIntegration.generalizedAlpha.spectralRadius = self.spectral_radius
 
 
-def _configure_newmark(settings: Any, kind: Any, gamma: float, beta: float) -> None:
-    """Newmark's method with constraints at velocity level (index 2)."""
-    settings.timeIntegration.solverType = kind
-    rule = settings.timeIntegration.generalizedAlpha
-    rule.useNewmark = rule.useIndex2Constraints = True
-    rule.newmarkGamma, rule.newmarkBeta = gamma, beta
-
-
 @dataclass(frozen=True)
 class Newmark(Implicit):
     """Newmark's method: v⁺ = v + h[(1−γ)a + γa⁺], u⁺ = u + hv + h²[(½−β)a + βa⁺]; constraints at velocity level."""
@@ -177,8 +166,11 @@ class Newmark(Implicit):
         return Averages(gamma=self.gamma)
 
     def configure(self, settings: Any) -> None:
-        beta = (self.gamma + 0.5) ** 2 / 4 if self.beta is None else self.beta
-        _configure_newmark(settings, exu.DynamicSolverType.GeneralizedAlpha, self.gamma, beta)
+        settings.timeIntegration.solverType = exu.DynamicSolverType.GeneralizedAlpha
+        rule = settings.timeIntegration.generalizedAlpha
+        rule.useNewmark = rule.useIndex2Constraints = True
+        rule.newmarkGamma = self.gamma
+        rule.newmarkBeta = (self.gamma + 0.5) ** 2 / 4 if self.beta is None else self.beta
 
 
 @dataclass(frozen=True)
@@ -189,7 +181,7 @@ class Trapezoidal(Implicit):
     """
 
     def configure(self, settings: Any) -> None:
-        _configure_newmark(settings, exu.DynamicSolverType.TrapezoidalIndex2, 0.5, 0.25)
+        Newmark(gamma=0.5, beta=0.25).configure(settings)  # Exudyn's TrapezoidalIndex2
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ from exudyn_models.assembly import Chosen
 from exudyn_models.contacts import CONTACTS, Contact, Penalty, Springs
 from exudyn_models.elements import ELEMENTS, Element, chosen_element
 from exudyn_models.geometry import GEOMETRIES, Array, Geometry, supports_or_plate
-from exudyn_models.integrators import INTEGRATORS, Integrator
+from exudyn_models.integrators import INTEGRATORS, Implicit, Integrator
 from exudyn_models.recording import Recorder
 from exudyn_models.resolution import chosen_mesh, chosen_steps, thin_front
 from exudyn_models.solvers import SOLVERS, NewtonSolver
@@ -98,13 +98,12 @@ class ExudynModel(Part):
         elif for_loads:
             contact = held_for(contact, impact)
         contact = contact or Penalty()
-        given = self.integrator or contact.integrator
-        integrator = given.with_steps()
-        open_steps = integrator != given
-        mesh = self.mesh or chosen_mesh(impact, end_time, explicit=integrator.explicit)
-        mesh, integrator = mesh.refined(self.refine), integrator.refined(self.refine * shorter)
-        if open_steps:
-            integrator = chosen_steps(integrator, mesh, impact, end_time)
+        integrator = self.integrator or contact.integrator
+        mesh = (self.mesh or chosen_mesh(impact, end_time, explicit=integrator.explicit)).refined(self.refine)
+        if isinstance(integrator, Implicit) and integrator.is_open:
+            integrator = chosen_steps(integrator, self.refine * shorter, mesh, impact, end_time)
+        else:
+            integrator = integrator.refined(self.refine * shorter)
         return Chosen(
             mesh=mesh,
             element=self.element or chosen_element(impact),

@@ -19,7 +19,7 @@ from bent_beam.impact import BEFORE_WAVES_RETURN
 from bent_beam.loads import WallScales, wall_scales
 from bent_beam.meshes import Mesh, NodesMesh, ScaleFreeMesh
 from exudyn_models.geometry import Array, Indices, Scaling
-from exudyn_models.integrators import Implicit, Integrator
+from exudyn_models.integrators import Implicit
 
 __all__ = [
     "chosen_half_length", "chosen_mesh", "chosen_steps", "far_field", "lasts_until_waves_return",
@@ -141,24 +141,22 @@ def thin_front(kappa_over_nu: float) -> bool:
     return kappa_over_nu < THIN
 
 
-def chosen_steps(integrator: Integrator, mesh: Mesh, impact: Impact, end: float) -> Integrator:
-    """``integrator``, which nobody asked for, with steps that resolve the contact once waves are back from the ends,
-    and in which a thin front passes ``PASSED`` elements at most.
+def chosen_steps(integrator: Implicit, factor: float, mesh: Mesh, impact: Impact, end: float) -> Implicit:
+    """``integrator``, whose steps are open, with its own, ``factor`` times shorter, in which a thin front passes
+    ``PASSED`` elements at most; once waves are back from the ends with those that resolve the contact.
 
-    With elements so short that the former would take more than ``MOST_STEPS`` it stays as it is: the run warns where
+    With elements so short that the latter would be more than ``MOST_STEPS`` the run takes the former, and warns where
     its contact gives energy.
     """
-    if not isinstance(integrator, Implicit):
-        return integrator
     if (wall := wall_scales(impact)) is not None:
         return dataclasses.replace(integrator, time_step=step_of_wall(mesh, impact, wall))
-    if lasts_until_waves_return(impact, end):
-        step = resolving_step(mesh, impact)
-        return dataclasses.replace(integrator, time_step=step) if end <= MOST_STEPS * step else integrator
-    if thin_front(impact.kappa_over_nu):
-        step = min(integrator.relative_step or integrator.default_step, _step_over_elements(mesh, Scaling(impact, end)))
-        return dataclasses.replace(integrator, relative_step=step)
-    return integrator
+    returned, step = lasts_until_waves_return(impact, end), resolving_step(mesh, impact)
+    if returned and end <= MOST_STEPS * step:
+        return dataclasses.replace(integrator, time_step=step)
+    relative = integrator.default_step / factor
+    if thin_front(impact.kappa_over_nu) and not returned:
+        relative = min(relative, _step_over_elements(mesh, Scaling(impact, end)))
+    return dataclasses.replace(integrator, relative_step=relative)
 
 
 def _step_over_elements(mesh: Mesh, scaling: Scaling) -> float:

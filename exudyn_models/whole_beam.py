@@ -29,7 +29,7 @@ from bent_beam.meshes import UniformMesh
 from exudyn_models.contacts import Penalty, penalty
 from exudyn_models.elements import chosen_element
 from exudyn_models.geometry import supports_or_plate
-from exudyn_models.integrators import Trapezoidal
+from exudyn_models.integrators import Implicit, Trapezoidal
 from exudyn_models.resolution import STEP, near_buckling, resolving_step, shortest_element, step_of_wall
 
 __all__ = ["cross_checks", "for_whole_beam", "varied"]
@@ -69,7 +69,7 @@ def for_whole_beam(method: M, impact: Impact) -> M:
     if shears := shortest_element(mesh, impact) < impact.shear_length:
         plate, slower = False, SLOWER_SHEARED if chosen and impact.kappa_over_nu >= THICK else 1.0
     integrator = Trapezoidal() if method.integrator is None else method.integrator.refined(method.refine)
-    if integrator.with_steps() != integrator:  # open
+    if isinstance(integrator, Implicit) and integrator.is_open:
         step = slower * resolving_step(mesh, impact) if wall is None else step_of_wall(mesh, impact, wall)
         integrator = dataclasses.replace(integrator, time_step=step, flight_step=_flight_step(impact, step))
     element = method.element or chosen_element(impact)
