@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from bent_beam import Impact, ImpactHistory, SimulationError
-from bent_beam.checks import MOST_INSTANTS, whole
+from bent_beam.checks import MOST_INSTANTS, between, whole
 from bent_beam.errors import InputError
 from bent_beam.fields import describe
 from bent_beam.method import Save
@@ -77,8 +77,7 @@ def run(
 def saved_times(save: Save, end: float) -> Array:
     """The times to save in units of ``end``, ascending, after 0. Raises ``ValueError``."""
     if isinstance(save, (int, np.integer)):
-        if whole("save", int(save), 1) > MOST_INSTANTS:
-            raise InputError(f"save must be at most {MOST_INSTANTS} instants (got {save})")
+        between("save", whole("save", int(save), 1), 1, MOST_INSTANTS)
         return np.asarray((np.arange(1, save + 1) / save) ** 2)
     times = np.unique(np.asarray(save, float)) / end
     if not (times.any() and (times >= 0.0).all() and (times <= 1.0 + 1e-9).all()):  # neither has a NaN

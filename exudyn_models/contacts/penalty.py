@@ -43,7 +43,7 @@ from exudyn_models.geometry import Array, Flags, element_times
 from exudyn_models.integrators import Integrator, Trapezoidal
 from exudyn_models.solvers import NewtonSolver
 
-__all__ = ["Penalty", "Springs", "covered", "penalty_per_length"]
+__all__ = ["Penalty", "Springs", "covered"]
 
 STIFFNESS, DAMPING = 10.0, 3.0  # C and D
 PLASTIC = 40.0  # D behind a thin front
@@ -64,11 +64,6 @@ def chosen_stiffness(beam: Beam, wall: Wall) -> float:
     asked = front**2 * element_times(length, beam.scaling.shear_length) / length / s[k]
     late = beam.shears and wall.first_spread < 1.0  # steps follow shear waves, and not the front
     return STIFFNESS if late else max(STIFFNESS, float(asked) ** 2)
-
-
-def penalty_per_length(times: Array, relative_stiffness: float, relative_damping: float) -> tuple[Array, Array]:
-    """k and d of the module's text for given element times (EI = μ = 1)."""
-    return relative_stiffness / times**2, relative_damping / times
 
 
 class PenaltyRun(ContactRun):
@@ -126,8 +121,7 @@ class PenaltyRun(ContactRun):
     def forces(self, q: Array, v: Array) -> tuple[Array, Flags]:
         force = self._spring_and_dashpot(q, v)
         active = self.closed_by(q, v) | self.held
-        if self.strip.until:
-            self.strip.captured |= active[: self.strip.captured.size]
+        self.strip.captured |= active[: self.strip.captured.size]
         return np.where(active, self.signs * force, 0.0), active
 
     def plain_forces(self, q: Array, v: Array) -> Array:
@@ -142,17 +136,17 @@ class PenaltyRun(ContactRun):
         return np.where((self.closed_by(q, v) != closed) & ~self.held, np.abs(force), 0.0)
 
     def between(self, time: float, step: float, q: Array, v: Array) -> bool:
-        changed = self._held_or_let_go(time) if self.strip.until else 0
+        switched = self._held_or_let_go(time)
         if self.explicit:  # nothing is repeated: the state at the start of a step serves all of it
             data, closed = self.beam.mbs.systemData, self.closed_by(q, v)
             if not np.array_equal(closed, data.GetDataCoordinates() <= 0.0):
                 data.SetDataCoordinates(np.where(closed, -TINY, TINY))
-        return changed > 0
+        return switched
 
-    def _held_or_let_go(self, time: float) -> int:
-        """Hold the nodes that are to be held from ``time`` on, and no others; how many changed."""
+    def _held_or_let_go(self, time: float) -> bool:
+        """Hold the nodes that are to be held from ``time`` on, and no others; whether any changed."""
         if time >= self.strip.until and not self.held.any():
-            return 0
+            return False
         wanted = np.zeros_like(self.held)
         wanted[: self.strip.captured.size] = self.strip.wanted(time)
         changed = np.flatnonzero(wanted != self.held)
@@ -162,7 +156,7 @@ class PenaltyRun(ContactRun):
             for name, value in (("contactStiffness", self.stiffness[k]), ("contactDamping", self.damping[k])):
                 self.beam.mbs.SetObjectParameter(self.connectors[k], name, 0.0 if wanted[k] else float(value))
         self.held = wanted
-        return int(changed.size)
+        return bool(changed.size)
 
     def stiffness_and_damping(self) -> tuple[Array, Array]:
         k, d = np.zeros((2, self.beam.shape.s.size))
@@ -214,7 +208,8 @@ class Penalty(Contact):
             own = matched(float(beam.lengths.min()), beam.scaling.shear_length, beam.scaling.material_damping)
             damping = MATCHED if own else PLASTIC * plastic if plastic else DAMPING
             damping *= math.sqrt(stiffness / STIFFNESS)
-        k, d = penalty_per_length(element_times(local, beam.scaling.shear_length), stiffness, damping)
+        times = element_times(local, beam.scaling.shear_length)
+        k, d = stiffness / times**2, damping / times
         if self.stiffness is not None:
             k = np.full_like(k, self.stiffness / beam.scaling.stiffness)
         if self.damping is not None:

@@ -20,7 +20,6 @@ from bent_beam import Impact
 from bent_beam.fields import Quantity
 from bent_beam.loads import UNSHEARED
 from exudyn_models.contacts.base import Contact, ContactRun, Wall
-from exudyn_models.contacts.penalty import penalty_per_length
 from exudyn_models.elements import ANCFCable, Beam, Element
 from exudyn_models.geometry import Array, Flags, Geometry, Indices, LinearLimit
 from exudyn_models.integrators import Integrator
@@ -110,22 +109,20 @@ class SegmentFriction(Contact):
     ] = 1.0
 
     def refuses(self, impact: Impact, element: Element, integrator: Integrator) -> str | None:
-        curved, element_name, its_name = impact.wall_curvature, type(element).__name__, type(integrator).__name__
-        reasons = (
-            (impact.opposite_wall is not None, "knows one wall only: take penalty (opposite_wall is given)"),
-            (bool(curved), f"knows a flat wall only: take penalty (got wall_curvature {curved})"),
-            (
-                impact.shear_stiffness is not None,
-                f"works on cables, which do not shear (got shear_stiffness {impact.shear_stiffness!r}){UNSHEARED}",
-            ),
-            (impact.curvature == 0.0, "needs a bent beam (got curvature 0)"),
-            (
-                not isinstance(element, ANCFCable),
-                f"works on ANCF cables only: take exudyn.element.kind ancf_cable (got {element_name})",
-            ),
-            (integrator.explicit, f"needs an implicit exudyn.integrator (got {its_name})"),
-        )
-        return next((f"exudyn.contact.kind segment_friction {reason}" for wrong, reason in reasons if wrong), None)
+        reason = None
+        if impact.opposite_wall is not None:
+            reason = "knows one wall only: take penalty (opposite_wall is given)"
+        elif impact.wall_curvature:
+            reason = f"knows a flat wall only: take penalty (got wall_curvature {impact.wall_curvature})"
+        elif impact.shear_stiffness is not None:
+            reason = f"works on cables, which do not shear (got shear_stiffness {impact.shear_stiffness!r}){UNSHEARED}"
+        elif impact.curvature == 0.0:
+            reason = "needs a bent beam (got curvature 0)"
+        elif not isinstance(element, ANCFCable):
+            reason = f"works on ANCF cables only: take exudyn.element.kind ancf_cable (got {type(element).__name__})"
+        elif integrator.explicit:
+            reason = f"needs an implicit exudyn.integrator (got {type(integrator).__name__})"
+        return None if reason is None else f"exudyn.contact.kind segment_friction {reason}"
 
     def wall_share(self, geometry: Geometry) -> float:
         return TRUE_SHARE if geometry.true else 1.0
@@ -134,9 +131,10 @@ class SegmentFriction(Contact):
         mbs, units, last = beam.mbs, beam.units, beam.lengths.size
         elements = np.arange(max(0, int(wall.nodes[0]) - 1), min(last, int(wall.nodes[-1]) + 1))
         lengths, radius = beam.lengths[elements], units.length / beam.shape.wall_curvature
-        k, d = penalty_per_length(lengths**2, self.relative_stiffness, self.relative_damping)
-        tangential = (self.relative_friction_damping if self.friction else 0.0) / lengths**2
-        run = _Run(beam, elements, k * lengths, d * lengths, self.friction, tangential * lengths)
+        times = lengths**2
+        k, d = self.relative_stiffness / times**2 * lengths, self.relative_damping / times * lengths
+        sliding = (self.relative_friction_damping if self.friction else 0.0) / times * lengths
+        run = _Run(beam, elements, k, d, self.friction, sliding)
         ground = mbs.AddObject(items.ObjectGround())
         circle = mbs.AddMarker(items.MarkerBodyRigid(bodyNumber=ground, localPosition=[0.0, radius, 0.0]))
         for i, e in enumerate(elements):
