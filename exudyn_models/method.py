@@ -1,13 +1,22 @@
-"""The Exudyn path as a method: its parts, each given or left to be chosen from the problem."""
+"""The Exudyn path as a method: its parts, each given or left to be chosen from the problem, and one impact by them.
+
+    μ y_tt + EI y_xxxx = EI q₀ + μ a₀ − r,   0 ≤ r ⊥ −y ≥ 0                       (thesis 2.1.1–2)
+
+The beam is modelled in the units of :mod:`exudyn_models.geometry`, with the initial shape, velocity field and load for
+which, without contact, y₀ of :class:`bent_beam.Impact` is the motion.
+"""
 
 from __future__ import annotations
 
 import dataclasses
+import time as clock
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, Self
 
-from bent_beam.errors import InputError
+import numpy as np
+
+from bent_beam.errors import InputError, SimulationError
 from bent_beam.fields import Part, Quantity
 from bent_beam.free_flight import Separation
 from bent_beam.history import ImpactHistory
@@ -15,16 +24,17 @@ from bent_beam.impact import Impact
 from bent_beam.loads import unmodelled
 from bent_beam.meshes import MESHES, Mesh
 from bent_beam.method import Save, made_of, separation_times
-from exudyn_models import simulation, whole_beam
-from exudyn_models.assembly import Chosen
+from exudyn_models import whole_beam
+from exudyn_models.assembly import Chosen, lay_out
 from exudyn_models.contacts import CONTACTS, Contact, Penalty, Springs
 from exudyn_models.elements import ELEMENTS, Element, chosen_element
 from exudyn_models.geometry import GEOMETRIES, Array, Geometry, supports_or_plate
 from exudyn_models.integrators import INTEGRATORS, Implicit, Integrator
 from exudyn_models.recording import Recorder
 from exudyn_models.resolution import chosen_mesh, chosen_steps, thin_front
-from exudyn_models.solvers import SOLVERS, NewtonSolver
-from exudyn_models.stepping import Until
+from exudyn_models.solvers import SOLVERS, NewtonSolver, quiet
+from exudyn_models.stepping import Stepping, Until, saved_times
+from exudyn_models.warnings_of_run import warnings_of_run
 
 __all__ = ["ExudynModel", "simulate"]
 
@@ -232,5 +242,22 @@ def simulate(
     end, method = impact.checked_end_time(end_time), ExudynModel(**parts)
     if reason := method.refuses(impact):
         raise InputError(reason)
-    chosen = method.chosen(impact, end)
-    return simulation.run(impact, end, chosen, save, view=view, progress=progress, until=until)
+    targets, began, chosen = saved_times(save, end), clock.perf_counter(), method.chosen(impact, end)
+    with quiet():
+        stepping = Stepping(lay_out(impact, end, chosen), chosen, targets, progress, until)
+        stepping.through(view)
+    if not stepping.run.record["time"]:
+        raise SimulationError(stepping.failure or "", time=0.0, step=0, advice=stepping.advice)
+    saved = targets[: stepping.saved] * end if stepping.left else np.asarray(save)  # what a rerun needs
+    settings = {"end_time": end, "save": saved.tolist(), **stepping.settings_of_run()}
+    history = stepping.run.history(
+        settings=settings | {"wall_seconds": clock.perf_counter() - began},
+        steps=stepping.steps,
+        seconds=stepping.seconds,
+        completed=stepping.failure is None,
+    )
+    history = history.with_warnings(warnings_of_run(stepping, history))
+    if stepping.failure is not None:
+        time, advice = float(history.time[-1]), stepping.advice
+        raise SimulationError(stepping.failure, time=time, step=stepping.steps, advice=advice, history=history)
+    return history

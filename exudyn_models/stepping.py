@@ -11,13 +11,16 @@ import logging
 import math
 import time as clock
 from collections.abc import Callable, Iterator
+from dataclasses import is_dataclass
 from typing import Any
 
 import exudyn as exu
 import numpy as np
 
-from bent_beam.checks import affordable
+from bent_beam.checks import MOST_INSTANTS, affordable, between, whole
 from bent_beam.errors import InputError
+from bent_beam.fields import describe
+from bent_beam.method import Save
 from exudyn_models.assembly import Chosen, Layout, assemble, settings_of, stable_step
 from exudyn_models.geometry import Array
 from exudyn_models.recording import Recorder
@@ -25,7 +28,7 @@ from exudyn_models.segments import Segment
 from exudyn_models.settling import ANY, Settling
 from exudyn_models.solvers import open_viewer, wait_until_closed
 
-__all__ = ["Stepping", "Until"]
+__all__ = ["Stepping", "Until", "saved_times"]
 
 MOST_NODES = 200_000  # Exudyn takes 10 kB for each: 2 GB
 MOST_WORK = 2e9  # steps x nodes: some hours
@@ -49,6 +52,17 @@ UNSETTLED = (
 )
 
 
+def saved_times(save: Save, end: float) -> Array:
+    """The times to save in units of ``end``, ascending, after 0. Raises ``ValueError``."""
+    if isinstance(save, (int, np.integer)):
+        between("save", whole("save", int(save), 1), 1, MOST_INSTANTS)
+        return np.asarray((np.arange(1, save + 1) / save) ** 2)
+    times = np.unique(np.asarray(save, float)) / end
+    if not (times.any() and (times >= 0.0).all() and (times <= 1.0 + 1e-9).all()):  # neither has a NaN
+        raise InputError(f"save must be a number of instants or times from 0 to the end time {end:.6g} s, not 0 alone")
+    return np.minimum(times[times > 0.0], 1.0)
+
+
 class Stepping:
     """A run under way, and Exudyn's ``PostStepUserFunction``: it reads every step, saves the state where asked and lets
     the contact switch connectors.
@@ -57,7 +71,7 @@ class Stepping:
         the last. until, progress : see :func:`exudyn_models.simulate`.
     run : the recorder; segments, flight, stable : the steps, those of a beam far off the wall (0: alike), and the
         longest that an explicit integrator bears, model units.
-    saved : how many targets; left : whether ``until`` has ended the run.
+    layout, chosen : as they are given; saved : how many targets; left : whether ``until`` has ended the run.
     steps : done; seconds : inside Exudyn; failure : what failed, ``None`` when nothing did; advice : what to try then.
 
     Raises ``ValueError`` for more work than one run takes.
@@ -98,7 +112,7 @@ class Stepping:
             judged = self.settings.timeIntegration.discontinuous
             self.settling = Settling(contact, judged.maxIterations, judged.iterationTolerance)
             judged.iterationTolerance = ANY
-        self.must_settle = chosen.solver.contact_must_settle
+        self.layout, self.chosen = layout, chosen
         self.targets, self.progress, self.until = targets, progress, until
         self.steps, self.seconds = 0, 0.0
         self.failure: str | None = None
@@ -107,6 +121,30 @@ class Stepping:
         self.saved, self.left = 0, False
         self._error: BaseException | None = None
 
+    def settings_of_run(self) -> dict[str, Any]:
+        """The parts and what was chosen with them, JSON-ready; times in s, lengths in m."""
+        scaling, settling = self.layout.scaling, self.settling
+        found: dict[str, Any] = {n: describe(part) for n, part in vars(self.chosen).items() if is_dataclass(part)}
+        if scaling.impact.wall_stiffness is None:
+            found["contact"] |= self.run.contact.chosen
+        else:  # its contact is none that can be asked for
+            found["contact"] = None
+        if math.isfinite(self.stable):
+            found["stable_step"] = self.stable * scaling.end_time
+        if settling is not None:
+            found |= {"contact_cycles": settling.cycles, "unsettled_steps": settling.unsettled}
+        return found | {
+            "full_beam": self.chosen.full_beam,
+            "hold": self.run.hold(),
+            "nodes": int(self.layout.shape.s.size),
+            "modelled_half_length": float(self.layout.half_length),
+            "amplitude": scaling.amplitude,
+            "amplitude_of_the_real_beam": scaling.true_amplitude,
+            "ends": "moment and shear of the free motion" if self.layout.ends_follow else "free",
+            "first_step": self.segments[0].length * scaling.end_time,
+            "last_step": self.segments[-1].length * scaling.end_time,
+        }
+
     @property
     def _over(self) -> bool:
         return self.left or self.saved == self.targets.size
@@ -114,7 +152,7 @@ class Stepping:
     @property
     def _unsettled(self) -> bool:
         """Whether a step has ended with contacts that must settle and did not."""
-        return self.must_settle and self.settling is not None and self.settling.unsettled > 0
+        return self.chosen.solver.contact_must_settle and self.settling is not None and self.settling.unsettled > 0
 
     def __call__(self, mbs: Any, time: float) -> bool:
         try:

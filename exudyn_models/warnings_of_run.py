@@ -1,35 +1,22 @@
-"""One impact by Exudyn, from its chosen parts to its history and the warnings that its reader should know.
-
-    μ y_tt + EI y_xxxx = EI q₀ + μ a₀ − r,   0 ≤ r ⊥ −y ≥ 0                       (thesis 2.1.1–2)
-
-The beam is modelled in the units of :mod:`exudyn_models.geometry`, with the initial shape, velocity field and load for
-which, without contact, y₀ of :class:`bent_beam.Impact` is the motion.
-"""
+"""What the reader of a run should know: steps, mesh and ends that it could not do with, and how far contact and slopes
+are beyond what is modelled."""
 
 from __future__ import annotations
 
 import math
-import time as clock
-from collections.abc import Callable, Iterator
-from dataclasses import is_dataclass
-from typing import Any
+from collections.abc import Iterator
 
 import numpy as np
 
-from bent_beam import Impact, ImpactHistory, SimulationError
-from bent_beam.checks import MOST_INSTANTS, between, whole
-from bent_beam.errors import InputError
-from bent_beam.fields import describe
-from bent_beam.method import Save
-from exudyn_models.assembly import Chosen, Layout, lay_out
+from bent_beam import Impact, ImpactHistory
+from exudyn_models.assembly import Layout
 from exudyn_models.geometry import Array, Scaling, supports_or_plate
 from exudyn_models.recording import Recorder
 from exudyn_models.resolution import far_field
 from exudyn_models.settling import Settling
-from exudyn_models.solvers import quiet
-from exudyn_models.stepping import Stepping, Until
+from exudyn_models.stepping import Stepping
 
-__all__ = ["run", "saved_times"]
+__all__ = ["warnings_of_run"]
 
 LARGEST_STEP = 0.05  # of the end time: the front then moves by a fortieth of the contact length in one
 MOST_CYCLES = 0.05  # of the steps
@@ -41,83 +28,14 @@ STEEPEST_GROWTH = 1.021  # of neighbouring elements
 STEEPEST_SLOPE = 0.1  # slope
 
 
-def run(
-    impact: Impact,
-    end: float,
-    chosen: Chosen,
-    save: Save,
-    *,
-    view: bool,
-    progress: Callable[[float], object] | None,
-    until: Until | None,
-) -> ImpactHistory:
-    """Follow ``impact`` to ``end``, s; arguments and errors are those of :func:`exudyn_models.simulate`."""
-    targets, began = saved_times(save, end), clock.perf_counter()
-    layout = lay_out(impact, end, chosen)
-    with quiet():
-        stepping = Stepping(layout, chosen, targets, progress, until)
-        stepping.through(view)
-    record, failure, advice = stepping.run, stepping.failure, stepping.advice
-    if failure is not None and not record.record["time"]:
-        raise SimulationError(failure, time=0.0, step=0, advice=advice)
-    saved = targets[: stepping.saved] * end if stepping.left else np.asarray(save)  # what a rerun needs
-    settings = {"end_time": end, "save": saved.tolist(), "full_beam": chosen.full_beam}
-    settings |= _described(layout, chosen, stepping)
-    settings["wall_seconds"] = clock.perf_counter() - began
-    about = {"steps": stepping.steps, "seconds": stepping.seconds, "completed": failure is None}
-    history = record.history(settings=settings, **about)
-    history = history.with_warnings(warnings_of_run(layout, chosen, stepping, history))
-    if failure is not None:
-        raise SimulationError(
-            failure, time=float(history.time[-1]), step=stepping.steps, advice=advice, history=history
-        )
-    return history
-
-
-def saved_times(save: Save, end: float) -> Array:
-    """The times to save in units of ``end``, ascending, after 0. Raises ``ValueError``."""
-    if isinstance(save, (int, np.integer)):
-        between("save", whole("save", int(save), 1), 1, MOST_INSTANTS)
-        return np.asarray((np.arange(1, save + 1) / save) ** 2)
-    times = np.unique(np.asarray(save, float)) / end
-    if not (times.any() and (times >= 0.0).all() and (times <= 1.0 + 1e-9).all()):  # neither has a NaN
-        raise InputError(f"save must be a number of instants or times from 0 to the end time {end:.6g} s, not 0 alone")
-    return np.minimum(times[times > 0.0], 1.0)
-
-
-def _described(layout: Layout, chosen: Chosen, stepping: Stepping) -> dict[str, Any]:
-    """The parts and what was chosen with them, JSON-ready; times in s, lengths in m."""
-    scaling, segments, settling = layout.scaling, stepping.segments, stepping.settling
-    settings: dict[str, Any] = {n: describe(part) for n, part in vars(chosen).items() if is_dataclass(part)}
-    if scaling.impact.wall_stiffness is None:
-        settings["contact"] |= stepping.run.contact.chosen
-    else:  # its contact is none that can be asked for
-        settings["contact"] = None
-    settings |= {
-        "hold": stepping.run.hold(),
-        "nodes": int(layout.shape.s.size),
-        "modelled_half_length": float(layout.half_length),
-        "amplitude": scaling.amplitude,
-        "amplitude_of_the_real_beam": scaling.true_amplitude,
-        "ends": "moment and shear of the free motion" if layout.ends_follow else "free",
-        "first_step": segments[0].length * scaling.end_time,
-        "last_step": segments[-1].length * scaling.end_time,
-    }
-    if math.isfinite(stepping.stable):
-        settings["stable_step"] = stepping.stable * scaling.end_time
-    if settling is not None:
-        settings |= {"contact_cycles": settling.cycles, "unsettled_steps": settling.unsettled}
-    return settings
-
-
-def warnings_of_run(layout: Layout, chosen: Chosen, stepping: Stepping, history: ImpactHistory) -> list[str]:
+def warnings_of_run(stepping: Stepping, history: ImpactHistory) -> list[str]:
     """Sentences about one run."""
-    run, scaling = stepping.run, layout.scaling
+    run, layout, scaling = stepping.run, stepping.layout, stepping.layout.scaling
     found = [*_of_steps(stepping.segments[-1].length, stepping.settling), *_of_contact(run, history)]
     if not supports_or_plate(scaling.impact):
         if len(run.record["time"]) > 1:
             found += _of_front(layout.places, scaling)
-        found += [*_of_mesh(layout, scaling.impact, chosen.mesh_given), *_of_depth(run)]
+        found += [*_of_mesh(layout, scaling.impact, stepping.chosen.mesh_given), *_of_depth(run)]
     return [*found, *_of_slopes(run)]
 
 
