@@ -62,7 +62,7 @@ class Recorder:
     copies : of what is modelled in the whole beam.
     record : what is saved, model units, by the names of :mod:`bent_beam.history`.
     sums : totals over all steps that are summed up, model units.
-    active : contact points that are closed, (contacts,); pushes : steps so far in which one pushed.
+    active : contact points that are closed, (contacts,); pushes : steps so far at whose ends one pushed.
     """
 
     def __init__(self, beam: Beam, contact: ContactRun, half: bool, averages: Averages) -> None:
@@ -81,7 +81,7 @@ class Recorder:
         self.fastest = float(max(np.abs(shape.velocity_y).max(), np.abs(driven).max()))  # at first, by loads in the end
         self.pushes = 0
         self._averaged = np.zeros(contact.contact_s.size)  # contact force after the scheme's averages
-        self._rows: list[tuple[Any, ...]] = []  # time, q, v, a, contact force, that along x; the first is old
+        self._rows: list[tuple[Any, ...]] = []  # time, q, v, a, contact force, that along x, active; the first is old
         self._pending: list[int] = []  # rows that are saved
         self._largest: dict[str, Array] = defaultdict(lambda: np.zeros(3))  # see _keep_largest
 
@@ -104,10 +104,10 @@ class Recorder:
             self.start_momentum = float(v @ self.momentum)
             self.start_stored = self.contact.stored_energy(q)
         else:
-            self.pushes += bool(((self._rows[-1][4] + force) * self.contact.signs > 0.0).any())
+            self.pushes += bool(force.any() or self._rows[-1][4].any())
             if len(self._rows) == ROWS:
                 self.sum_up()
-        self._rows.append((t, q, v, a, force, along))
+        self._rows.append((t, q, v, a, force, along, self.active))
         return q, v
 
     def whole_beam(self, q: Array, v: Array) -> tuple[Array, Array, Array, float]:
@@ -121,10 +121,8 @@ class Recorder:
             float(beam.kinetic_energy(v) + beam.strain_energy(q)) * scaling.energy * self.copies,
         )
 
-    def save(self, t: float, q: Array) -> None:
-        """Keep the state last read, q at ``t``; the rest of the record follows when it is summed up."""
-        self.record["time"].append(t)
-        self.record["in_contact"].append(self.active.copy())
+    def save(self, q: Array) -> None:
+        """Keep the state last read; the rest of its record follows when it is summed up."""
         self.record["contact_energy"].append(self.contact.stored_energy(q) - self.start_stored)
         self._pending.append(len(self._rows) - 1)
 
@@ -132,7 +130,7 @@ class Recorder:
         """Sum up what happened in the steps since the last call, and complete the record of the instants among them."""
         if len(self._rows) < 2 and not self._pending:
             return
-        time, q, v, a, force, along = (np.array(column) for column in zip(*self._rows))
+        time, q, v, a, force, along, active = (np.array(column) for column in zip(*self._rows))
         dt, beam, saved = np.diff(time), self.beam, self._pending
         gains = self._of_energy(time, q, v, a) | self._of_contact(time, q, v, force, along)
         after = {name: onwards(self.sums[name], gain) for name, gain in gains.items()}
@@ -142,7 +140,8 @@ class Recorder:
             total = after["impulse"] @ self.contact.signs
         y, slope = q[:, beam.vertical] - self.wall_y, beam.slope(q) - beam.shape.wall_slope
         moments = beam.bending_moments(q) + self.unbent
-        now = {"y": y, "velocity": v[:, beam.vertical], "slope": slope, "total_impulse": total}
+        now = {"time": time, "y": y, "velocity": v[:, beam.vertical], "slope": slope}
+        now |= {"total_impulse": total, "in_contact": active}
         if beam.scaling.shear_length:
             now |= {"angular_velocity": v[:, beam.rotation], "bending_moment": nodal_means(moments)}
         for name, values in (after | now).items():

@@ -171,7 +171,7 @@ class Stepping:
         self._time, self._state = time, (q, v)
         self.steps += 1
         if time >= self.targets[self.saved] * (1.0 - 1e-9):
-            run.save(time, q)
+            run.save(q)
             self.saved = int(np.searchsorted(self.targets, time * (1.0 + 1e-9), side="right"))
             self.left = self.until is not None and self.until(run, time, q, v)
         if self.progress is not None and (self.steps % BETWEEN == 0 or self.saved == self.targets.size):
@@ -208,8 +208,9 @@ class Stepping:
             if self._started(self.segments[0]):
                 mbs.SetPostStepUserFunction(self)
                 for segment in self._in_flight() if self.flight else self.segments:
-                    if self.failure is None and not self._over:
-                        self._step_through(segment)
+                    self._step_through(segment)
+                    if self.failure is not None or self._over:
+                        break
         except FloatingPointError as error:
             self.failure = str(error)
         except SystemError as error:  # what was raised while Exudyn ran, an interrupt by the user above all
@@ -230,20 +231,18 @@ class Stepping:
             return False
         self.seconds += clock.perf_counter() - began
         q, v = run.read(0.0)
-        run.save(0.0, q)
+        run.save(q)
         run.contact.between(0.0, first.length, q, v)
         return True
 
     def _in_flight(self) -> Iterator[Segment]:
         """Segments whose steps grow with the smallest gap, from those near the wall up to ``flight``."""
         vertical, short, step, t = self.run.beam.vertical, self.segments[0].length, 0.0, 0.0
-        while t < 1.0 - 1e-9 and not self._over:
+        while t < 1.0 - 1e-9:
             step = min(max(short, step), self.flight)
             count = math.ceil(min(FLIGHT_BLOCK if step > short else WALL_BLOCK, (1.0 - t) / step) - 1e-9)
             start, t = t, min(t + count * step, 1.0)
             yield Segment(start, t, count)
-            if self.failure is not None:
-                return
             q, v = self._state
             step = -float(self.run.contact.depth(q).max()) / (CLEAR * FLIGHT_BLOCK * float(np.abs(v[vertical]).max()))
 

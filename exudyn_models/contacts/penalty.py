@@ -112,28 +112,30 @@ class PenaltyRun(ContactRun):
             activeConnector=False,
         )
 
-    def _spring_and_dashpot(self, q: Array, v: Array) -> Array:
-        return np.asarray(self.stiffness * self.depth(q) + self.damping * (self.signs * v[self.coordinates]))
+    def _law(self, q: Array, v: Array) -> tuple[Array, Flags]:
+        """Force of spring and dashpot off the wall, and where they act."""
+        force = self.stiffness * self.depth(q) + self.damping * (self.signs * v[self.coordinates])
+        return force, force > 0.0
 
     def closed_by(self, q: Array, v: Array) -> Flags:
-        return self._spring_and_dashpot(q, v) > 0.0
+        return self._law(q, v)[1]
 
     def forces(self, q: Array, v: Array) -> tuple[Array, Flags]:
-        force = self._spring_and_dashpot(q, v)
-        active = self.closed_by(q, v) | self.held
+        force, closed = self._law(q, v)
+        active = closed | self.held
         self.strip.captured |= active[: self.strip.captured.size]
         return np.where(active, self.signs * force, 0.0), active
 
     def plain_forces(self, q: Array, v: Array) -> Array:
-        return np.where(self.depth(q) >= 0.0, self.signs * self._spring_and_dashpot(q, v), 0.0)
+        return np.where(self.depth(q) >= 0.0, self.signs * self._law(q, v)[0], 0.0)
 
     def stored_energy(self, q: Array) -> float:
         depth = self.depth(q)
         return float((self.stiffness * np.where(self.held, depth, np.maximum(depth, 0.0)) ** 2).sum() / 2)
 
     def contradictions(self, q: Array, v: Array, closed: Flags) -> Array:
-        force = self._spring_and_dashpot(q, v)
-        return np.where((self.closed_by(q, v) != closed) & ~self.held, np.abs(force), 0.0)
+        force, shown = self._law(q, v)
+        return np.where((shown != closed) & ~self.held, np.abs(force), 0.0)
 
     def between(self, time: float, step: float, q: Array, v: Array) -> bool:
         switched = self._held_or_let_go(time)
@@ -246,8 +248,9 @@ class SpringsRun(PenaltyRun):
             self.damping = damping
         return False
 
-    def closed_by(self, q: Array, v: Array) -> Flags:
-        return np.asarray((self.depth(q) > 0.0) & super().closed_by(q, v))
+    def _law(self, q: Array, v: Array) -> tuple[Array, Flags]:
+        force, closed = super()._law(q, v)
+        return force, closed & (self.depth(q) > 0.0)
 
 
 @dataclass(frozen=True)
