@@ -24,17 +24,7 @@ from bent_beam.meshes import Mesh, checked_nodes, mirrored, snapped
 from exudyn_models.contacts import Contact, ContactRun, Wall
 from exudyn_models.elements import Beam, Element
 from exudyn_models.elements.beam import VISCOSITY, VISCOSITY_EXPLICIT, VISCOSITY_SHEARED
-from exudyn_models.geometry import (
-    MODEL_UNITS,
-    STEEPEST,
-    Array,
-    Geometry,
-    Scaling,
-    Shape,
-    Units,
-    element_times,
-    supports_or_plate,
-)
+from exudyn_models.geometry import STEEPEST, Array, Geometry, Scaling, Shape, Units, element_times, supports_or_plate
 from exudyn_models.integrators import Integrator
 from exudyn_models.resolution import lasts_until_waves_return, modelled_half_length, reachable, thin_front
 from exudyn_models.solvers import NewtonSolver
@@ -104,8 +94,8 @@ def lay_out(impact: Impact, end: float, chosen: Chosen) -> Layout:
     return Layout(half_length, places, scaling, geometry.shape(nodes, scaling, chosen.contact.wall_share(geometry)))
 
 
-def assemble(layout: Layout, chosen: Chosen, units: Units = MODEL_UNITS) -> tuple[Beam, ContactRun]:
-    """The Exudyn system: beam, loads, symmetry, supports, contact; the numbers of its items are in ``units``."""
+def assemble(layout: Layout, chosen: Chosen, *, si: bool = False) -> tuple[Beam, ContactRun]:
+    """The Exudyn system: beam, loads, symmetry, supports, contact. Numbers of its items are in model units, or SI."""
     shape, scaling, explicit = layout.shape, layout.scaling, chosen.integrator.explicit
     container = exu.SystemContainer()
     system = container.AddSystem()
@@ -116,6 +106,7 @@ def assemble(layout: Layout, chosen: Chosen, units: Units = MODEL_UNITS) -> tupl
         factor = VISCOSITY_EXPLICIT if explicit else implicit
     viscosity = factor * element_times(shape.lengths, scaling.shear_length)
     axial_stiffness = _axial_stiffness(chosen.element.axial_stiffness, shape.slender, scaling)
+    units = Units.si(scaling) if si else Units()
     beam = chosen.element.beam(system, shape, scaling, axial_stiffness, viscosity, units)
     hold = beam.hold_by_inertia if explicit else beam.fix
     across, turning = beam.vertical_coordinate, beam.rotation_coordinate

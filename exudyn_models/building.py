@@ -34,7 +34,7 @@ from bent_beam.meshes import NodesMesh, ScaleFreeMesh
 from exudyn_models.assembly import Chosen, assemble, lay_out, settings_of, stable_step
 from exudyn_models.contacts import ContactRun, Penalty, Rigid
 from exudyn_models.elements import Beam
-from exudyn_models.geometry import Array, Scaling, Units, supports_or_plate
+from exudyn_models.geometry import Array, Scaling, supports_or_plate
 from exudyn_models.integrators import Implicit
 from exudyn_models.method import ExudynModel
 from exudyn_models.resolution import GROWTH_OF_WAVES, chosen_half_length, lasts_until_waves_return
@@ -89,7 +89,7 @@ def build(
         raise InputError(reason)
     chosen = _chosen(method, impact, end)
     layout = lay_out(impact, end, chosen)
-    beam, contact = assemble(layout, chosen, Units.si(layout.scaling))
+    beam, contact = assemble(layout, chosen, si=True)
     settings = _settings(chosen, beam, contact, save)
     if file is not None:
         settings.solution.file.write, settings.solution.file.name = True, file

@@ -32,7 +32,7 @@ from bent_beam.fields import Part, Quantity
 from bent_beam.loads import FreeMotion, lowest_mode
 
 __all__ = [
-    "GEOMETRIES", "MODEL_UNITS", "STEEPEST", "Array", "Flags", "Geometry", "Indices", "LinearLimit", "Scaling",
+    "GEOMETRIES", "STEEPEST", "Array", "Flags", "Geometry", "Indices", "LinearLimit", "Scaling",
     "Shape", "TrueGeometry", "Units", "element_times", "supports_or_plate",
 ]  # fmt: skip
 
@@ -127,9 +127,6 @@ class Units:
         return self.force * self.time / self.length
 
 
-MODEL_UNITS = Units()
-
-
 @dataclass(frozen=True)
 class Shape:
     """Places, angles and velocities of the nodes at the first contact in model units, arrays of shape (nodes,).
@@ -209,7 +206,7 @@ class Geometry(Part, ABC):
     """How large the deflections of the model are."""
 
     where: ClassVar[str] = "exudyn.geometry"
-    true: ClassVar[bool]
+    true: ClassVar[bool] = False
 
     @abstractmethod
     def amplitude_of(self, scaling: Scaling, reach: float) -> float:
@@ -249,8 +246,6 @@ class LinearLimit(Geometry):
     The history is scaled back. The amplitude is chosen so that slopes of the free motion stay below 1e-4 where the
     impact moves the beam, their square being what is left of geometry.
     """
-
-    true: ClassVar[bool] = False
 
     amplitude: Annotated[
         float | None,

@@ -75,10 +75,6 @@ class Integrator(Part, ABC):
         """What forces at the ends of a step make of its impulse; the mean where nothing better is known."""
         return Averages()
 
-    def solver(self) -> Any:
-        """A fresh Exudyn solver object."""
-        return exu.MainSolverExplicit() if self.explicit else exu.MainSolverImplicitSecondOrder()
-
     @abstractmethod
     def configure(self, settings: Any) -> None:
         """Write this integrator's choices into Exudyn's ``SimulationSettings``."""

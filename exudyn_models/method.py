@@ -73,8 +73,6 @@ class ExudynModel(Part):
         "element": "ancf_cable",
         "integrator": "generalized_alpha",
         "contact": "penalty",
-        "geometry": "linear",
-        "solver": "newton",
     }
 
     mesh: Mesh | None = None

@@ -106,7 +106,7 @@ class Stepping:
             so_long = "up to" if self.flight else "about"
             LOG.warning("%s %.2g minutes: %d steps of %d nodes", so_long, expected / 60.0, steps, nodes)
         self.settings = settings_of(chosen, beam, contact)
-        self.solver = integrator.solver()
+        self.solver: Any = exu.MainSolverExplicit() if integrator.explicit else exu.MainSolverImplicitSecondOrder()
         self.settling: Settling | None = None  # explicit steps are not repeated
         if contact.iterated and not integrator.explicit:
             judged = self.settings.timeIntegration.discontinuous

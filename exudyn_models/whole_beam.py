@@ -54,12 +54,11 @@ FLATTEST_FRONT = 1.0 / 150.0  # κ/ν down to which the front does not ask for a
 def for_whole_beam(method: M, impact: Impact) -> M:
     """A copy of ``method`` whose open parts are those of the module's head; its ``refine`` is worked in."""
     wall = wall_scales(impact)
-    if wall is not None:
-        elements = max(POINT_ELEMENTS, round(impact.half_length / (LARGEST_OF_WALL * wall.length)))
-    else:
-        elements = ZONE_ELEMENTS if impact.kappa_over_nu < 1.0 else POINT_ELEMENTS
+    elements = ZONE_ELEMENTS if impact.kappa_over_nu < 1.0 and wall is None else POINT_ELEMENTS
     if impact.shear_stiffness is not None:
-        elements = SHEARED_ELEMENTS if wall is None else max(elements, SHEARED_ELEMENTS)
+        elements = SHEARED_ELEMENTS
+    if wall is not None:
+        elements = max(elements, round(impact.half_length / (LARGEST_OF_WALL * wall.length)))
     mesh = method.mesh or UniformMesh(impact.half_length / round(elements * near_buckling(impact)))
     mesh = mesh.refined(method.refine)
     chosen = method.mesh is None and method.contact is None and method.integrator is None
