@@ -199,12 +199,10 @@ class Recorder:
         """Work, losses and impulses of the contact forces in each step, each (steps,)."""
         mean, contact = means(force), self.contact
         depth = q[:, contact.coordinates] - contact.wall_y
+        deeper = np.diff(depth, axis=0)
         pushes = mean * contact.signs * np.diff(time)[:, None]
         pulls = np.minimum(pushes, 0.0)
-        gains = {
-            "contact_work": products(mean, np.diff(depth, axis=0)),
-            "held_impulse": pulls.sum(axis=1),
-        }
+        gains = {"contact_work": products(mean, deeper), "held_impulse": pulls.sum(axis=1)}
         if contact.along is not None:
             moved = np.diff(q[:, self.beam.horizontal[contact.nodes]], axis=0)
             gains["contact_work"] = gains["contact_work"] - products(means(along), moved)
@@ -218,7 +216,7 @@ class Recorder:
             pressure = np.where(depth > 0.0, depth + delay * speed, 0.0).max(axis=1)  # over k
             self._keep_largest("pressures", pressure, time, deepest, anew=False)
             dashpots = np.where(depth > 0.0, force - contact.wall_springs * depth, 0.0)  # also slow what would pull
-            gains["loss_wall"] = products(means(dashpots), np.diff(depth, axis=0))
+            gains["loss_wall"] = products(means(dashpots), deeper)
         return gains
 
     def _impulses(self, dt: Array, q: Array, force: Array, total: Array) -> Array:
