@@ -51,10 +51,8 @@ def test_first_release_and_impulse_until_then_are_the_stopped_beam_s(integrator,
         pytest.param(1.5, 1e-3, 200, 0.6161, 2e-4, marks=slow),
         pytest.param(0.5, 1e-3, 400, 0.4563, 5e-4, marks=slow),
         pytest.param(0.5, 1e-2, 200, 0.3364, 2e-4, marks=slow),
-        pytest.param(0.7, 1e-2, 400, 0.4740, 5e-4, marks=slow),
         pytest.param(1.2, 3e-3, 200, 0.6108, 2e-4, marks=slow),
         pytest.param(4.0, 1e-3, 200, 0.616598, 1e-4, marks=slow),  # by modes
-        pytest.param(0.4, 1e-2, 200, 0.2747, 3e-4, marks=slow),
     ],
 )
 def test_restitution_of_a_damped_beam_is_one_number_whatever_the_scheme(
@@ -98,6 +96,14 @@ def test_hits_are_contacts_whose_gaps_are_shorter_than_a_period_of_the_first_mod
     for hit, begin, before, after in zip(hits(twice), (0.0, 3.0), (1.0, -0.45), (-0.45, -1.9), strict=True):
         assert (hit.begin, hit.before, hit.after) == pytest.approx((begin, before, after))
         assert hit.impulse == pytest.approx(2.0 * (before - after))  # mass 2
+
+
+def recorded(time, impulse, *, gap=0.0, velocity=0.0, **other) -> ImpactHistory:
+    """A beam that the wall gives these impulses, and that keeps its energy: half of it, unless told otherwise."""
+    still, one = 0.0 * impulse, np.ones(time.size)
+    known = {"x": np.linspace(0.0, 1.0, 5), "impact": Impact.whole_beam(2.0), "gap": still + gap, "slope": still}
+    known |= {"velocity": still + velocity, "impulse": impulse, "total_impulse": 2.0 * impulse.sum(axis=1)}
+    return history_of(time, **(known | {"kinetic_energy": one, "strain_energy": 0.0 * one} | other))
 
 
 HEAVY = Impact(2.0, 8.0, 6.0, 2.0, 0.5)  # κ/ν = 2, ℓ = 3 m, T* = 18 s
@@ -239,7 +245,7 @@ def test_the_largest_push_of_a_wall_that_gives_way_lies_between_saved_instants()
     """The force is smooth: with eight times fewer instants the impulse within a hundredth of T* is the same within
     2e-4, and would be short by 1e-3 at the instants themselves."""
     impact = Impact.whole_beam(0.5, relative_damping=1e-2).replace(wall_stiffness=2e4)
-    fine, coarse = (whole_impact(HermiteFE().simulate_to_separation(impact, save=save)) for save in (8000, 1000))
+    fine, coarse = (whole_impact(COARSE.simulate_to_separation(impact, save=save)) for save in (8000, 1000))
     assert coarse.push == pytest.approx(fine.push, rel=2e-4)
     assert coarse.push - coarse.push_rise < (1.0 - 1e-3) * fine.push
 
@@ -264,46 +270,29 @@ def test_a_beam_returns_where_it_is_nearest_to_the_wall_and_as_slowly_as_it_has_
 
 
 def test_the_largest_push_begins_when_the_wall_begins_to_push_within_its_window() -> None:
-    time, x = np.linspace(0.0, 0.4, 401), np.linspace(0.0, 1.0, 5)
-    given = np.where(time > 0.2995, 1.0, 0.0)[:, None] * np.eye(5)[0]  # a slap between two saved instants
-    one = np.ones(time.size)
-    slap = history_of(
-        time, x, impact=Impact.whole_beam(2.0), velocity=0.0 * given, slope=0.0 * given, impulse=given,
-        total_impulse=2.0 * given[:, 0], kinetic_energy=one, strain_energy=0.0 * one,
-    )  # fmt: skip
-    found = whole_impact(slap)
+    """A slap between two saved instants; a steady force, which pushes for a hundredth of T*."""
+    time = np.linspace(0.0, 0.4, 401)
+    found = whole_impact(recorded(time, np.outer(time > 0.2995, np.eye(5)[0])))
     assert found.push == pytest.approx(2.0) and found.push_time == pytest.approx(0.299)
-
-
-def test_a_steady_force_pushes_for_a_hundredth_of_the_unit_of_time_within_the_window() -> None:
     assert whole_impact(pushed_until(0.3)).push == pytest.approx(0.01 * 5.8)
 
 
 @pytest.mark.parametrize(("apart", "separations"), [(1.5e-3, 1), (2.5e-3, 2)])
 def test_the_wall_must_rest_for_two_thousandths_of_the_unit_of_time_to_have_been_left(apart, separations) -> None:
-    time, x = np.linspace(0.0, 3.0, 6001), np.linspace(0.0, 1.0, 5)
+    time = np.linspace(0.0, 3.0, 6001)
     impulse = np.minimum(time, 0.5) + np.clip(time - 0.5 - apart, 0.0, 0.5)
-    away = np.maximum(time - 1.0, 0.0)[:, None] * np.ones(5)
-    one = np.ones(time.size)
-    run = history_of(
-        time, x, impact=Impact.whole_beam(2.0), gap=away, slope=0.0 * away, velocity=-one[:, None] * np.ones(5),
-        impulse=impulse[:, None] * np.eye(5)[0], total_impulse=2.0 * impulse, kinetic_energy=one,
-        strain_energy=0.0 * one,
-    )  # fmt: skip
+    away = np.maximum(time - 1.0, 0.0)[:, None]
+    run = recorded(time, np.outer(impulse, np.eye(5)[0]), gap=away, velocity=-1.0)
     assert whole_impact(run).separations == separations
 
 
 def test_the_restitution_of_a_held_beam_is_that_of_its_mean_velocity_and_a_hit_is_where_it_pushes() -> None:
     """Its supports push, too: the impulse of the wall says nothing."""
     time, x = np.linspace(0.0, 4.0, 81), np.linspace(-1.0, 1.0, 11)
+    whole = {"x": x, "symmetry": "full", "impact": Impact.whole_beam(2.0).replace(left_end="hinged")}
     impulse = np.outer(np.minimum(time, 0.5), np.eye(11)[4] + 3.0 * np.eye(11)[8])  # at −0.2 and 0.6
-    velocity = np.where(time < 0.5, 1.0, -0.4)[:, None] * np.ones(11)
-    one = np.ones(time.size)
-    held = history_of(
-        time, x, symmetry="full", impact=Impact.whole_beam(2.0).replace(left_end="hinged"), velocity=velocity,
-        slope=0.0 * velocity, impulse=impulse, total_impulse=impulse.sum(axis=1), kinetic_energy=one,
-        strain_energy=0.0 * one,
-    )  # fmt: skip
+    velocity = np.where(time < 0.5, 1.0, -0.4)[:, None]
+    held = recorded(time, impulse, velocity=velocity, total_impulse=impulse.sum(axis=1), **whole)
     assert whole_impact(held).restitution == pytest.approx(0.4)
     (hit,) = hits(held)
     assert (hit.before, hit.after, hit.place) == pytest.approx((1.0, -0.4, (0.2 + 3.0 * 0.6) / 4.0))
