@@ -153,10 +153,3 @@ def test_nothing_overflows_up_to_the_largest_arguments(ratio: float) -> None:
         assert np.isfinite(found.r_axial)
         if ratio > 1e-20:
             assert np.isfinite(found.r1) and np.isfinite(found.lambda1)
-
-
-def test_a_flat_beam_is_in_contact_where_its_free_motion_meets_the_wall() -> None:
-    """Without the pile-up of Wagner's water: the front falls behind that place, by the share 6(κ/ν)²."""
-    ratio = np.array([1e-6, 1e-3, 2e-3])
-    behind = 1.0 - contact_parameters(ratio).lambda0 * np.sqrt(ratio / 2.0)
-    np.testing.assert_allclose(behind, 6.0 * ratio**2, rtol=1e-3, atol=1e-14)

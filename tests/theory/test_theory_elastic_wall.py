@@ -138,15 +138,6 @@ def test_a_stiff_beam_is_a_rigid_one_and_its_energy_is_all_in_the_spring():
     assert np.polyfit(time[free], tip[free], 1)[0] == pytest.approx(-1.6, rel=0.01), "off as fast as it came"
 
 
-def test_modes_converge_and_a_bending_beam_hits_its_stop_again():
-    """Code_Aster's SDNL32 with k = 45 kN/m: two contacts in 12 ms, the second the harder."""
-    few, many = (SwungBeam(214.49, 0.4704, 0.783, 3.8, 45e3, modes=n) for n in (40, 120))
-    assert few.peak_force(0.012) == pytest.approx(many.peak_force(0.012), rel=1e-4)
-    touching = np.diff((many.tip(0.012)[1] > 0.0).astype(int))
-    assert touching.tolist().count(1) == 2, "at the start and once more"
-    assert many.peak_force(0.005)[0] < many.peak_force(0.012)[0]
-
-
 PUBLISHED = {  # displacements of the tip at 1, 2, … 12 ms, mm, by the stop's stiffness in N/m
     18e3: [2.66, 4.33, 4.92, 4.78, 3.82, 2.87, 2.71, 3.09, 3.41, 3.36, 2.64, 0.742],
     45e3: [2.25, 2.66, 1.96, 1.15, 0.124, 0.364, 2.01, 2.74, 1.89, 0.352, -1.70, -4.99],
