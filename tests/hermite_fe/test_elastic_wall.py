@@ -120,9 +120,7 @@ def test_a_hinged_beam_swung_on_an_elastic_stop_is_its_modes() -> None:
 def test_a_stop_keeps_half_its_stiffness_times_the_square_of_how_far_it_is_pressed_in_the_middle_too() -> None:
     facing, q = np.array([0.1, 0.0, 0.3, 0.0]), np.array([0.5, 0.2, -0.1, 0.0])
     for dof, pressed in ((0, 0.6), (2, 0.2)):
-        springs = Springs(
-            5.0, 0.7, facing, np.array([0.8]), np.zeros(1), 0, 0, dof
-        )  # no element stands before the wall
+        springs = Springs(5.0, 0.7, facing, np.array([0.8]), np.zeros(1), 0, 0, dof)  # no element before the wall
         assert stored_energy(springs, q) == pytest.approx(0.5 * 5.0 * pressed**2)
         assert stored_energy(springs, q - 1.0) == 0.0
 

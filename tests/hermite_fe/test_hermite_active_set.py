@@ -8,10 +8,8 @@ from scipy.linalg import cho_solve_banded, cholesky_banded
 
 from bent_beam.meshes import ScaleFreeMesh
 from hermite_fe.active_set import CYCLING, SOLVED, find_wrong, solve_constrained
-from hermite_fe.banded import PAD
 from hermite_fe.beam import HermiteBeam
 from hermite_fe.constraints import Constraints, ContactLaw, constraints_of
-from hermite_fe.contacts import MeanContact
 from hermite_fe.stepping import Problem, prepare, problem_of
 from hermite_fe.system import ContactRows, System
 
@@ -184,22 +182,3 @@ def test_a_front_that_runs_and_lifts_leaves_no_sign_wrong(width: int) -> None:
             assert np.abs(residual).max() < 1e-9 * scale
             assert min(conditions.p.min(), slack.min()) > -1e-9 * scale
             assert np.abs(conditions.p * slack).max() < 1e-9 * scale**2
-
-
-def test_a_constraint_that_opens_leaves_the_factors_beyond_it_alone() -> None:
-    """Factors run from the last unknown to the first: what lies ahead of the front is factored once."""
-    beam = HermiteBeam(np.linspace(0.0, 10.0, 101), 1.0, 1.0)
-    rows = MeanContact().rows(beam, np.zeros(beam.dofs), full=False)
-    system = System(mass=beam.mass(), stiffness=beam.stiffness(), contacts=rows)
-    problem, conditions = ready(system, 1e-4)
-    b, x, solver = np.zeros(beam.dofs), np.zeros(beam.dofs), problem.solver
-    conditions.candidate[:] = True
-    b[:20:2] = 1.0
-    solve_constrained(solver, problem.rows, conditions, b, x)
-    before, front = solver.U.copy(), int(np.flatnonzero(conditions.closed).max())
-    b[20:24:2] = 1.0
-    solve_constrained(solver, problem.rows, conditions, b, x)
-    changed = np.flatnonzero(np.any(solver.U != before, axis=0))
-    assert int(np.flatnonzero(conditions.closed).max()) > front
-    assert changed.max() == solver.row_unknown[np.flatnonzero(conditions.closed).max()]
-    assert changed.min() >= PAD

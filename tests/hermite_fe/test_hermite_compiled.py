@@ -49,21 +49,8 @@ def test_another_module_is_another_folder_and_where_nothing_can_be_kept_function
     assert module.recompiling(lambda: twice(6.0)) == 12.0
 
 
-def test_bad_input_leaves_what_is_compiled_alone() -> None:
-    """What cannot be read is removed and compiled anew; an integrator that refuses a problem is no such thing."""
-    simulate(Impact.dimensionless(0.5, length=8.0), end_time=0.01, integrator=MoreauJean(1e-3))
-    before = sorted(module.FOLDER.rglob("*.nbi"))
-    with pytest.raises(ValueError, match="restitution must be 0"):
-        simulate(
-            Impact.dimensionless(0.5, length=8.0),
-            end_time=0.01,
-            integrator=SignoriniPosition(1e-3),
-            contact=NodeContact(restitution=0.5),
-        )
-    assert before and sorted(module.FOLDER.rglob("*.nbi")) == before
-
-
-def test_an_integrator_that_raises_is_called_once_and_costs_no_compiled_code() -> None:
+def test_bad_input_and_an_integrator_that_raises_once_leave_what_is_compiled_alone() -> None:
+    """What cannot be read is removed and compiled anew; a problem that is refused is no such thing."""
     calls = []
 
     class Raising(MoreauJean):
@@ -71,10 +58,13 @@ def test_an_integrator_that_raises_is_called_once_and_costs_no_compiled_code() -
             calls.append(1)
             raise RuntimeError("mine")
 
-    simulate(Impact.dimensionless(0.5, length=8.0), end_time=0.01, integrator=MoreauJean(1e-3))
+    asked = {"impact": Impact.dimensionless(0.5, length=8.0), "end_time": 0.01}
+    simulate(**asked, integrator=MoreauJean(1e-3))
     before = sorted(module.FOLDER.rglob("*.nbi"))
+    with pytest.raises(ValueError, match="restitution must be 0"):
+        simulate(**asked, integrator=SignoriniPosition(1e-3), contact=NodeContact(restitution=0.5))
     with pytest.raises(RuntimeError, match="mine"):
-        simulate(Impact.dimensionless(0.5, length=8.0), end_time=0.01, integrator=Raising(1e-3))
+        simulate(**asked, integrator=Raising(1e-3))
     assert len(calls) == 1 and before and sorted(module.FOLDER.rglob("*.nbi")) == before
 
 

@@ -59,23 +59,6 @@ def test_each_loss_is_booked_and_a_false_velocity_or_damping_is_missing_from_the
     assert balance(damped) - start == pytest.approx(false, rel=1e-8)
 
 
-@every
-def test_a_falsified_force_shows_in_proportion(make: Make) -> None:
-    """Steps solved with pivots that are a little too small: every acceleration is wrong by that much."""
-
-    def defect(share: float) -> float:
-        run = damped_beam(make(STEP))
-        start = balance(run)
-        run.advance_to(10)
-        run.problem.solver.U[0] *= 1.0 + share
-        run.advance_to(40)
-        return balance(run) - start
-
-    small, large = defect(1e-4), defect(2e-4)
-    assert abs(small) > 1e-7
-    assert large == pytest.approx(2.0 * small, rel=0.05)
-
-
 @pytest.mark.parametrize(
     ("kappa", "step"), [(0.1, 1e-3), *(pytest.param(*p, marks=pytest.mark.verify) for p in ((0.5, 2e-4), (1.5, 1e-3)))]
 )
@@ -84,15 +67,10 @@ def test_a_falsified_force_shows_in_proportion(make: Make) -> None:
 def test_the_wall_brings_no_energy(levels: str, radius: float, step: float, kappa: float) -> None:
     """An undamped beam, its shortest waves unresolved by the steps: neither more energy than at the start, nor a loss
     in impacts below zero."""
-    history = simulate(
-        Impact.dimensionless(kappa, length=2.0),
-        end_time=0.3,
-        integrator=NonsmoothGeneralizedAlpha(step, spectral_radius=radius, levels=levels),
-        mesh=UniformMesh(0.02),
-        contact=NodeContact(),
-        far_field=GridViscosity(viscosity=0.0),
-        save=100,
-    )
+    scheme = NonsmoothGeneralizedAlpha(step, spectral_radius=radius, levels=levels)
+    parts = {"mesh": UniformMesh(0.02), "contact": NodeContact(), "far_field": GridViscosity(viscosity=0.0)}
+    impact = Impact.dimensionless(kappa, length=2.0)
+    history = simulate(impact, end_time=0.3, integrator=scheme, save=100, **parts)
     energy = history.array("kinetic_energy") + history.array("strain_energy")
     assert energy.max() <= energy[0] * (1.0 + 1e-9)
     assert np.diff(history.array("loss_impact")).min() > -1e-2 * energy[0]
