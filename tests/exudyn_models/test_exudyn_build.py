@@ -67,6 +67,9 @@ def test_items_are_in_si_units_and_sensors_agree_with_one_another():
     assert node["initialVelocities"][1] == pytest.approx(STEEL.velocity * model.scale)
     contact = model.mbs.GetObject(model.contacts[1])
     assert contact["contactStiffness"] == pytest.approx(10.0 * 2.1e3 / 0.015**3)  # C EI/Δx⁴ over Δx of beam
+    given = exudyn_models.build(STEEL, mesh=UniformMesh(0.015), contact=Penalty(stiffness=2e9, damping=3e4))
+    law = given.mbs.GetObject(given.contacts[1])  # N/m² and N s/m² of the wall, over Δx
+    assert (law["contactStiffness"], law["contactDamping"]) == pytest.approx((2e9 * 0.015, 3e4 * 0.015))
     end = model.settings.timeIntegration.endTime
     times = np.linspace(0.0, end, read["force"].size)
     assert np.trapezoid(read["force"][:, 0], times) == pytest.approx(read["impulse"][-1, 0], rel=0.05)
@@ -117,13 +120,6 @@ def test_one_setting_is_swapped_without_its_kind_and_the_rest_stays_chosen():
     for end in (1e-3, 0.1):  # steps that grow, and steps that are constant
         chosen, open_ones = (method.chosen(impact, end).integrator for method in (made, ExudynModel()))
         assert chosen == dataclasses.replace(open_ones, spectral_radius=0.9)
-
-
-def test_stiffness_and_damping_of_the_wall_are_also_given_in_si_units():
-    """k in N/m², d in N s/m²: at a node, times its length of beam."""
-    model = exudyn_models.build(STEEL, mesh=UniformMesh(0.015), contact=Penalty(stiffness=2e9, damping=3e4))
-    contact = model.mbs.GetObject(model.contacts[1])
-    assert (contact["contactStiffness"], contact["contactDamping"]) == pytest.approx((2e9 * 0.015, 3e4 * 0.015))
 
 
 def test_a_solution_file_is_there_for_exudyns_viewer(tmp_path):

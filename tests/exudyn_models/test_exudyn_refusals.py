@@ -136,13 +136,6 @@ def test_a_run_whose_contact_need_not_settle_says_how_often_it_did_not():
     assert any("had not settled" in warning for warning in history.warnings)
 
 
-@pytest.mark.parametrize("contact", [None, SegmentFriction()])
-def test_with_no_setting_every_step_settles(contact):
-    history = exudyn_models.simulate(SHORT, mesh=MESH, contact=contact, save=20)
-    assert history.settings["unsettled_steps"] == 0
-    assert history.settings["contact_cycles"] < 0.05 * history.steps
-
-
 class Pressed:
     """0 ≤ p ⊥ M p − c ≥ 0 in the place of a system and its contact: p are forces, M p − c gaps."""
 

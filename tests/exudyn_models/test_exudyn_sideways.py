@@ -44,15 +44,9 @@ def taken_and_sideways(steps):
     for k, node in enumerate(nodes):
         open_by = [max(1e-14, float(wall[k]))]
         state = mbs.AddNode(items.NodeGenericData(numberOfDataCoordinates=1, initialCoordinates=open_by))
-        mbs.AddObject(
-            items.ObjectContactCoordinate(
-                markerNumbers=[marker(node, 1), ground],
-                nodeNumber=state,
-                contactStiffness=stiffness[k],
-                contactDamping=damping[k],
-                offset=-wall[k],
-            )
-        )
+        law = {"contactStiffness": stiffness[k], "contactDamping": damping[k], "offset": -wall[k]}
+        markers = [marker(node, 1), ground]
+        mbs.AddObject(items.ObjectContactCoordinate(markerNumbers=markers, nodeNumber=state, **law))
         loads.append(mbs.AddLoad(items.LoadCoordinate(markerNumber=marker(node, 2), load=0.0)))
     mbs.Assemble()
 
