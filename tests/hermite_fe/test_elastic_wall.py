@@ -33,8 +33,7 @@ def on_springs(kappa: float, ratio: float, **more: object) -> Impact:
     ("ratio", "exact", "pressure"), [(0.0, 3.364318, 1.0), (0.25, 2.533837, 0.8107), (1.0, 2.450685, 2.0)]
 )
 def test_the_largest_force_of_a_nearly_straight_beam_is_that_of_oscillators_side_by_side(ratio, exact, pressure):
-    """κ/ν → 0: bending plays no part, and f√κ = 2√2 max ∫₀^√T R(T − s²) ds, R of an oscillator that lands at V₀; its
-    largest is the pressure."""
+    """κ/ν → 0: bending plays no part, and f√κ = 2√2 max ∫₀^√T R(T − s²) ds, R of an oscillator at V₀."""
     history = COARSE.simulate(on_springs(0.005, ratio), end_time=2.6, save=9)
     peaks = wall_peaks(history)
     assert peaks is not None and peaks.force * np.sqrt(0.005) == pytest.approx(exact, rel=2e-4)

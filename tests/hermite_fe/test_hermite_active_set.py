@@ -91,41 +91,30 @@ def check(seed: int) -> None:
     if degenerate < 0.1:
         b, target = np.round(b), np.zeros(m)
     elif degenerate < 0.3:  # some rows just touch: no gap and no reaction
-        target = np.where(random.random(m) < 0.5, touching(system, b), target)
+        target = np.where(random.random(m) < random.choice([0.5, 0.9]), touching(system, b), target)
     candidate, held = random.random(m) < 0.9, random.random(m) < 0.1
     exact_x, exact_p = truth(system, b, target, candidate, held)
     scale = 1.0 + np.abs(exact_x).max() + np.abs(exact_p).max()
     conditions.target[:], conditions.candidate[:], conditions.least[:] = target, candidate, -1.0 * held
     x = np.zeros(n)
     # from one guess to the next the factors are kept; one by one where exchanging many rows at once runs in a circle
-    for solve in [solve_constrained] * 3 + [solve_one_by_one] * (degenerate >= 0.3):
+    for solve in [solve_constrained] * 3 + [solve_one_by_one]:
         conditions.closed[:] = random.random(m) < 0.5
-        assert solve(problem.solver, problem.rows, conditions, b, x) == SOLVED, seed
+        status = solve(problem.solver, problem.rows, conditions, b, x)
+        if degenerate < 0.3 and solve is solve_one_by_one:  # judged more leniently, but no row is left out in silence
+            wrong, *_ = find_wrong(problem.solver, problem.rows, conditions, b, x, 1e-8)
+            assert status == CYCLING or (status == SOLVED and wrong == 0), seed
+            continue
+        assert status == SOLVED, seed
         assert np.abs(x - exact_x).max() < 1e-7 * scale, seed
         assert np.abs(conditions.p - exact_p).max() < 1e-7 * scale, seed
 
 
-@pytest.mark.parametrize("seeds", [range(80), pytest.param(range(1000, 11000), marks=pytest.mark.verify)], ids=len)
+@pytest.mark.parametrize("seeds", [range(300), pytest.param(range(1000, 11000), marks=pytest.mark.verify)], ids=len)
 def test_contact_problems_are_solved_as_by_trying_every_active_set(seeds: range) -> None:
     """Random problems, degenerate ones among them, each from three wrong guesses, and by the fall-back from none."""
     for seed in seeds:
         check(seed)
-
-
-def test_the_fall_back_never_calls_a_row_inside_the_wall_solved() -> None:
-    """Rows that just touch: signs are judged more leniently then, but no row may be left out in silence."""
-    for seed in range(100):
-        random = np.random.default_rng([5, seed])
-        system = random_system(random)
-        problem, conditions = ready(system)
-        n, m = system.dofs, len(system.contacts)
-        b, target, x = random.normal(size=n), random.normal(size=m), np.zeros(n)
-        conditions.target[:] = np.where(random.random(m) < 0.9, touching(system, b), target)
-        conditions.candidate[:] = True
-        status = solve_one_by_one(problem.solver, problem.rows, conditions, b, x)
-        assert status in (SOLVED, CYCLING)
-        if status == SOLVED:
-            assert find_wrong(problem.solver, problem.rows, conditions, b, x, 1e-8)[0] == 0, seed
 
 
 def test_the_factors_solve_like_lapack_s() -> None:
@@ -150,8 +139,7 @@ def test_the_factors_solve_like_lapack_s() -> None:
 
 @pytest.mark.parametrize("width", [1, 4])
 def test_a_front_that_runs_and_lifts_leaves_no_sign_wrong(width: int) -> None:
-    """Factors are kept from solve to solve while a front runs over a beam, and now and then something lifts behind
-    it."""
+    """Factors are kept from solve to solve while a front runs over a beam; now and then something lifts behind it."""
     for seed in range(4):
         random = np.random.default_rng(seed)
         beam = HermiteBeam(np.cumsum(random.uniform(0.5, 1.5, 200)), 1.0, 1.0)

@@ -38,8 +38,6 @@ verify = pytest.mark.verify
 INTEGRATORS = {name: make(STEP, growth=GROWTH) for name, make in ALL.items()}
 MESH = ScaleFreeMesh(0.01, 1.02)
 IMPACT = Impact.dimensionless(0.4, length=60.0)
-
-
 PAIRS = [(name, kind) for name in INTEGRATORS for kind in CONTACTS if name != "penalty" or kind == "node"]
 
 
@@ -178,8 +176,7 @@ def pulled(scheme: Integrator, contact: Contact, end: float = 0.004) -> ImpactHi
 
 @SCHEMES
 def test_adhesion_lies_between_a_wall_that_only_pushes_and_one_that_holds(scheme: Integrator) -> None:
-    """To the last digit it is the one without strength, the other beyond any pull. In between no pull exceeds it, and
-    what gives way gains no energy."""
+    """To the last digit it is the one without strength, the other beyond any pull; what gives way gains no energy."""
     for pull, other in ((0.0, NodeContact()), (1e9, NodeContact(hold_until=1.0))):
         one, two = pulled(scheme, AdhesiveContact(pull=pull)), pulled(scheme, other)
         assert all(np.array_equal(one.array(name), two.array(name)) for name in ("gap", "impulse", "held_impulse"))

@@ -63,9 +63,7 @@ STEEP = 2.0 * np.pi / (15.0 * 0.02)
     ],
     ids=["growing elements with viscosity", "growing elements alone", "sponge", "free end"],
 )
-def test_a_packet_is_swallowed_by_viscosity_and_sponge_and_comes_back_without(
-    nodes, far_field, number, start, turn, least, most
-):
+def test_a_packet_dies_in_viscosity_and_sponge_and_is_back_without(nodes, far_field, number, start, turn, least, most):
     """In elements that grow with viscosity a packet dies on its way to where a few of them make a wave; what the mesh
     carries to the end dies in a sponge."""
     assert least <= returned(nodes, far_field, number, start, turn) < most

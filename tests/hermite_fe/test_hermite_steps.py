@@ -65,8 +65,7 @@ def test_each_loss_is_booked_and_a_false_velocity_or_damping_is_missing_from_the
 @pytest.mark.parametrize("radius", [0.0, 1.0])
 @pytest.mark.parametrize("levels", ["velocity", "position_velocity", "position_velocity_acceleration"])
 def test_the_wall_brings_no_energy(levels: str, radius: float, step: float, kappa: float) -> None:
-    """An undamped beam, its shortest waves unresolved by the steps: neither more energy than at the start, nor a loss
-    in impacts below zero."""
+    """To an undamped beam whose shortest waves the steps do not resolve; no loss in impacts is below zero."""
     scheme = NonsmoothGeneralizedAlpha(step, spectral_radius=radius, levels=levels)
     parts = {"mesh": UniformMesh(0.02), "contact": NodeContact(), "far_field": GridViscosity(viscosity=0.0)}
     impact = Impact.dimensionless(kappa, length=2.0)
