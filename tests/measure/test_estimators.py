@@ -23,8 +23,7 @@ def with_impact(history, impact):
 
 @cache
 def synthetic(kappa, first=(0.0, 0.0, 0.0), epsilon=0.0, noise=0.0, seed=0):
-    """A half-beam history with both concentrated reactions and the uniform one on a fixed mesh; impulses exact, plus
-    noise."""
+    """A half-beam history with both concentrated reactions and the uniform one on a fixed mesh; impulses plus noise."""
     times, nodes, exact = 200, 400, contact_parameters(kappa, *first)
     loads = dict(zip(("epsilon_alpha", "epsilon_psi", "epsilon_chi"), (epsilon * value for value in first)))
     tau = np.linspace(np.sqrt(1e-4), np.sqrt(0.1), times) ** 2

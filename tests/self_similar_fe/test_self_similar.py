@@ -102,9 +102,7 @@ def test_the_middle_lifts_when_the_load_pulls_and_stays_unpulled_when_it_pushes(
     assert abs(pushed.array("held_impulse")[-1]) < 0.01 * pushed.array("total_impulse")[-1]
 
 
-def test_the_wall_pulls_in_no_step_where_contacts_wander_and_tolerances_that_had_to_be_widened_are_warned_of(
-    monkeypatch,
-):
+def test_the_wall_pulls_in_no_step_where_contacts_wander_and_widened_tolerances_are_warned_of(monkeypatch):
     """α = −1 pulls the beam off: the contact is one or two nodes, which exchanging all wrong ones never settles."""
     pulled, mesh = Impact.dimensionless(0.1, epsilon_alpha=-1.0), ExpandingMesh(step_ratio=0.01)
     history = SelfSimilarFE(mesh=mesh).simulate(pulled, end_time=0.05)

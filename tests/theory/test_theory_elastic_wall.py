@@ -14,9 +14,7 @@ from theory.elastic_stop import SwungBeam
 from theory.elastic_wall import _loads, flat_limit, peak_force, sharp_limit, wall_history
 
 
-def largest_force_by_modes(
-    kappa_over_nu: float, damping_ratio: float, end: float, half: float, dx: float, damping: float = 0.0
-) -> float:
+def largest_force_by_modes(kappa_over_nu, damping_ratio, end, half, dx, damping=0.0):
     """Cosine modes of a long beam, each turned exactly in time between kicks by springs at the points of a grid; with
     a damping of its own (t_k) it loses some speed after each turn."""
     dt = 0.1 * dx
