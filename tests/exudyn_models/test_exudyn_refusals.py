@@ -144,6 +144,8 @@ class Pressed:
     def __init__(self, flexibility, penetration):
         self.flexibility, self.penetration, self.systemData = flexibility, penetration, self
         self.data, self.hook = np.ones(penetration.size), lambda *_: None
+        self.GetDataCoordinates = lambda: self.data
+        self.GetODE2Coordinates, self.GetODE2Coordinates_t = lambda: self.forces, lambda: self.gaps
 
     def SetPreNewtonResidualUserFunction(self, hook):
         self.hook = hook
@@ -151,21 +153,12 @@ class Pressed:
     def SetDataCoordinates(self, data):
         self.data = data
 
-    def GetDataCoordinates(self):
-        return self.data
-
     def solve(self):
         self.hook(self, 0.0, 0, 0)
         closed = self.data <= 0.0
         self.forces = np.zeros(closed.size)
         self.forces[closed] = np.linalg.solve(self.flexibility[np.ix_(closed, closed)], self.penetration[closed])
         self.gaps = np.where(closed, 0.0, self.flexibility @ self.forces - self.penetration)
-
-    def GetODE2Coordinates(self):
-        return self.forces
-
-    def GetODE2Coordinates_t(self):
-        return self.gaps
 
     def closed_by(self, forces, gaps):
         return (forces > 0.0) | (gaps < 0.0)

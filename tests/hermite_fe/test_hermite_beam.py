@@ -5,14 +5,13 @@ import math
 
 import numpy as np
 import pytest
-from numpy.polynomial.legendre import leggauss
 from scipy.linalg import solveh_banded
 
 from bent_beam import Impact
 from bent_beam.meshes import GradedMesh, ScaleFreeMesh, UniformMesh
 from hermite_fe import simulate
 from hermite_fe.banded import product
-from hermite_fe.beam import HermiteBeam, element_geometric_stiffness, element_mass, element_stiffness, shape_functions
+from hermite_fe.beam import HermiteBeam, shape_functions
 from hermite_fe.contacts import NodeContact
 from hermite_fe.far_fields import GridViscosity
 from hermite_fe.integrators import INTEGRATORS, MoreauJean
@@ -24,16 +23,10 @@ NODES = np.linspace(0.0, LENGTH, 53)
 FREE, QUIET = NodeContact(), GridViscosity(viscosity=0.0)
 
 
-def test_element_matrices_are_the_integrals_of_the_shape_functions() -> None:
-    length, (points, weights) = np.array([0.37]), leggauss(6)
-    w = 0.5 * length * weights[:, None]
-    shape, slope, bend = (shape_functions(0.5 * (points + 1.0), 0.37, d) for d in (0, 1, 2))
-    assert np.allclose(element_stiffness(length, 2.0)[0], 2.0 * bend.T @ (w * bend))
-    assert np.allclose(element_mass(length, 3.0)[0], 3.0 * shape.T @ (w * shape))
-    assert np.allclose(element_geometric_stiffness(length)[0], slope.T @ (w * slope))
+def test_interpolation_is_exact_for_cubics() -> None:
     cubic, x = np.poly1d([2.0, -1.0, 0.5, 0.25]), np.linspace(0.0, 0.37, 9)
     q = [cubic(0.0), cubic.deriv()(0.0), cubic(0.37), cubic.deriv()(0.37)]
-    for d in range(4):  # interpolation is exact for cubics
+    for d in range(4):
         assert np.allclose(shape_functions(x / 0.37, 0.37, d) @ q, cubic.deriv(d)(x))
 
 

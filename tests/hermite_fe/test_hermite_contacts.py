@@ -52,9 +52,8 @@ def run(integrator: Integrator, contact: Contact | None = None, **rest: object) 
 def test_the_wall_pushes_where_the_beam_touches_and_takes_its_momentum(name: str, kind: str) -> None:
     """0 ≤ p ⊥ g ≥ 0 to round-off, strictly unilateral; the impulse is the change of momentum; the budget closes."""
     history = run(INTEGRATORS[name], CONTACTS[kind]())
-    assert balance_of(history).momentum < 5e-4
-    budget = history.energy_budget()
-    assert abs(budget["defect"]) < 1e-11 * budget["initial_energy"]
+    balance = balance_of(history)
+    assert balance.momentum < 5e-4 and balance.energy < 1e-11
     assert history.array("held_impulse")[-1] == 0.0 and history.settings["hold"] is None
     if name != "penalty":
         assert np.all(np.diff(history.array("impulse"), axis=0) >= -1e-9)
@@ -140,14 +139,6 @@ def test_contacts_between_nodes_are_booked_where_they_act(contact: Contact) -> N
     assert found.lambda0.value == pytest.approx(1.01886591389, rel=1e-3)
     assert found.r0.value == pytest.approx(1.17721208090, rel=1e-3)
     assert found.lift < 1e-3
-
-
-def test_a_zone_thrown_off_the_wall_is_warned_of() -> None:
-    """κ/ν = 0.1, coarse elements and Moreau–Jean, which rattles: the zone lifts by several per cent."""
-    parts = {"mesh": UniformMesh(0.02), "integrator": MoreauJean(time_step=1e-4), "contact": NodeContact()}
-    history = simulate(Impact.dimensionless(0.1, length=20.0), end_time=0.1, **parts)
-    assert leading_order(moments(history)).lift > 1e-2
-    assert any("off the wall" in warning for warning in history.warnings)
 
 
 # --- a wall that pulls, a little --------------------------------------------------------------------------------------
@@ -246,6 +237,7 @@ def test_contact_points_stay_off_the_wall_are_never_pulled_and_take_the_momentum
     assert history.array("complementarity_product").max() < 1e-12
     moved = 2.0 * 0.04 * (1.0 - history.array("velocity")[:, 1::2]).sum(axis=1)  # of the nodes that keep mass
     assert 2.0 * moved == pytest.approx(history.array("total_impulse"), abs=1e-10)
+    is_half_of(massless(full_beam=True), history, 1e-9)
 
 
 def test_energy_is_kept_but_for_what_points_that_come_and_go_leave():
@@ -262,7 +254,3 @@ def test_what_no_impact_takes_throws_the_zone_off_the_wall():
     strict = massless(thin, integrator=SignoriniPosition(time_step=2.5e-4, growth=0.0), contact=NodeContact())
     lifts = [one.array("gap")[-1, one.dataset.x.values < 1.0].max() / 0.1 for one in (massless(thin), strict)]
     assert lifts[0] > 0.3 and lifts[1] < 0.2 * lifts[0]
-
-
-def test_half_and_full_beam_agree_where_points_have_no_mass():
-    is_half_of(massless(full_beam=True), massless(), 1e-9)
