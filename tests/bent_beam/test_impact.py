@@ -13,8 +13,6 @@ from bent_beam.errors import SimulationError
 from bent_beam.fields import Quantity, declared
 from bent_beam.loads import ENDS, loads_of, lowest_mode, unmodelled
 from bent_beam.tables import TABLES
-from self_similar_fe import SelfSimilarFE
-from theory import predict
 
 THESIS = dict(bending_stiffness=1.0, mass_per_length=1.0, length=50.0, curvature=10.0, velocity=20.0)
 
@@ -46,12 +44,6 @@ def test_every_load_is_in_case_files_and_what_a_path_does_not_know_is_refused_by
     assert unmodelled(impact, ("acceleration", "curvature_rate")) is None
     assert "curvature_rate is not modelled" in unmodelled(impact, ("acceleration",))
     assert loads_of(Impact).keys() <= {name for table in TABLES.values() for name in declared(table)}
-    assert "shear_stiffness" in SelfSimilarFE().refuses(Impact(**THESIS, shear_stiffness=1.0))
-    for feature in ({"wall_from": -0.1, "wall_to": 0.1}, {"left_end": "hinged"}):
-        impact = Impact(**THESIS, **feature)
-        with pytest.raises(ValueError, match=next(iter(feature))):
-            predict(impact, [1e-3])
-        assert next(iter(feature)) in SelfSimilarFE().refuses(impact)
 
 
 @pytest.mark.parametrize("left", ENDS)

@@ -78,7 +78,8 @@ REFUSED = [
     (lambda: HermiteFE(integrator=MoreauJean()).simulate(SPRINGS, end_time=1.0), "integrator.kind"),
     (lambda: HermiteFE(contact=NodeContact()).simulate(SPRINGS, end_time=1.0), "contact has no effect"),
     (lambda: HermiteFE(integrator=Midpoint()).simulate(SHORT, end_time=1.0), "integrator.kind"),
-    # shear
+    # shear and hysteretic loss
+    (lambda: HermiteFE(integrator=GeneralizedAlphaPenalty()).simulate(LOSSY.unsheared), "loss needs .*Penalty"),
     (lambda: simulate(LOSSY), "hysteretic_loss" + WAY),
     (lambda: simulate(SHEARED, contact=MiddleContact()), r"contact\.kind" + WAY),
     # a largest pull

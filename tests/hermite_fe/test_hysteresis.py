@@ -10,17 +10,14 @@ from bent_beam import Impact
 from bent_beam.hysteresis import first_mode
 from bent_beam.measure.whole_impact import whole_impact
 from bent_beam.meshes import UniformMesh
-from exudyn_models import ExudynModel
 from hermite_fe import HermiteFE
 from hermite_fe.banded import product
 from hermite_fe.constraints import ContactLaw
 from hermite_fe.contacts import NodeContact
 from hermite_fe.far_fields import GridViscosity
-from hermite_fe.integrators import GeneralizedAlphaPenalty, Midpoint, MoreauJean, SignoriniPosition
+from hermite_fe.integrators import Midpoint, MoreauJean, SignoriniPosition
 from hermite_fe.model import BeamModel, beam_model
 from hermite_fe.run import integrate
-from self_similar_fe import SelfSimilarFE
-from theory import predict
 
 
 def lossy(kappa: float, loss: float, **more: object) -> Impact:
@@ -80,18 +77,6 @@ def test_energy_and_momentum_close_to_round_off_and_the_branches_take_their_shar
     assert np.abs(gained + run.impulse.sum(axis=1)).max() < 1e-11 * momentum[0]
     assert np.all(np.diff(s["loss_material"]) > 0.0) and s["branch_energy"][-1] > 0.0
     assert s["loss_material"][-1] > 0.05 * s["kinetic_energy"][0]
-
-
-def test_who_has_no_branches_refuses_by_field_and_value() -> None:
-    impact = lossy(0.5, 0.1)
-    for method in (ExudynModel(), SelfSimilarFE()):
-        assert "hysteretic_loss is not modelled by this method (got 0.1): take the Hermite path" in str(
-            method.refuses(impact)
-        )
-    theory = predict(impact, 1e-3)
-    assert theory.valid_until == 0.0 and theory.limited_by == theory.times[0].spoiled_by == "hysteretic loss"
-    with pytest.raises(ValueError, match=r"integrator.kind: hysteretic_loss needs .*GeneralizedAlphaPenalty"):
-        HermiteFE(integrator=GeneralizedAlphaPenalty()).simulate(impact)
 
 
 @pytest.mark.verify

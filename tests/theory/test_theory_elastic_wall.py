@@ -125,17 +125,6 @@ def test_shear_spoils_the_largest_force_of_a_wall_that_is_fast_beside_it(kappa_o
     assert [predict(beam).wall.spoiled_by for beam in beams] == ["shear", None]
 
 
-def test_a_stiff_beam_is_a_rigid_one_and_its_energy_is_all_in_the_spring():
-    rod = SwungBeam(1e4, 0.5, 0.8, 2.0, 300.0, modes=6)
-    mass = 0.5 * 0.8 / 3.0  # of the end that has the moment of inertia of the rod
-    force, when = rod.peak_force(0.08)
-    assert force == pytest.approx(2.0 * 0.8 * np.sqrt(300.0 * mass), rel=2e-3)
-    assert when == pytest.approx(0.5 * np.pi * np.sqrt(mass / 300.0), rel=2e-2)  # short waves sit on the flat top
-    time, tip = rod.tip(0.3)
-    free = time > 1.1 * np.pi * np.sqrt(mass / 300.0)
-    assert np.polyfit(time[free], tip[free], 1)[0] == pytest.approx(-1.6, rel=0.01), "off as fast as it came"
-
-
 PUBLISHED = {  # displacements of the tip at 1, 2, … 12 ms, mm, by the stop's stiffness in N/m
     18e3: [2.66, 4.33, 4.92, 4.78, 3.82, 2.87, 2.71, 3.09, 3.41, 3.36, 2.64, 0.742],
     45e3: [2.25, 2.66, 1.96, 1.15, 0.124, 0.364, 2.01, 2.74, 1.89, 0.352, -1.70, -4.99],

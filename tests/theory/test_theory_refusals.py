@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bent_beam import Impact
-from theory import ImpactFields, contact_parameters, damped_point, kernel
+from theory import ImpactFields, contact_parameters, damped_point, kernel, predict
 from theory.elastic_stop import SwungBeam
 from theory.elastic_wall import peak_force
 from theory.second_order import second_order
@@ -35,6 +35,8 @@ PIPE = Impact(1.224e6, 29.02, 90.0, 0.002, 2.0)
         (lambda: StoppedBeam(1e-3).reaction([0.0, 0.1]), "the reaction is infinite"),
         (lambda: StoppedBeam(1e-3).impulse(-1.0), "times must be finite and not negative"),
         (lambda: damped_point.impulse_ratio(0.0), "age must be positive"),
+        (lambda: predict(PIPE.replace(left_end="hinged"), [1e-3]), "left_end"),
+        (lambda: predict(PIPE.replace(wall_from=-0.1, wall_to=0.1), [1e-3]), "wall_from"),
         (lambda: sideways(PIPE, -1.0, 0.3), "surface_speed"),
         (lambda: sideways(PIPE, 1.0, 0.0), "friction"),
         (lambda: sideways(PIPE, 1.0, 0.3, radius=0.0), "radius"),
