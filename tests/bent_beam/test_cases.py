@@ -1,5 +1,4 @@
-"""Case files: a beam described as its owner knows it is the beam that its numbers say; what clashes, or is mistaken, is
-refused by name and value."""
+"""Case files: a beam described as its owner knows it is that of its numbers; what clashes is refused by name."""
 
 import math
 import re

@@ -145,10 +145,7 @@ def test_explicit_integrator_is_stable_at_its_own_step(integrator):
 @verify
 @pytest.mark.parametrize(("kappa_over_nu", "elements"), [(0.5, 140), (0.8, 300)])
 def test_constraints_meet_the_theory_on_a_flat_wall(kappa_over_nu, elements):
-    """Nodes are led back to the wall: what is left of their depths would press and pull without end.
-
-    With 140 elements 2e-8 is left, whatever the viscosity; with 100 it is 4e-8 to 1.3e-7, as captures fall.
-    """
+    """Nodes are led back to the wall: what is left of their depths, here 2e-8, would press and pull without end."""
     impact = Impact.dimensionless(kappa_over_nu)
     rigid = exudyn_models.simulate(impact, mesh=coarse(impact, 1.012, elements), contact=Rigid(), save=100)
     assert off(rigid) < 5e-3 and rigid.warnings == []

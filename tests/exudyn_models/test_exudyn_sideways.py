@@ -1,8 +1,7 @@
 """Sideways motion of a beam that slides on its wall with Coulomb friction, in three dimensions: z = μ_f η.
 
-A straight beam of three-dimensional cables (``ObjectANCFCable``) arrives at a bulging wall, as good as a bent one at a
-flat one; its surface slides along z, faster than it is deflected, so that each contact carries μ_f R sideways. η = y₀ −
-y is what the contact has taken from the free motion.
+A straight beam of three-dimensional cables arrives at a bulging wall; its surface slides along z, faster than it is
+deflected, so that each contact carries μ_f R sideways. η = y₀ − y is what the contact has taken from the free motion.
 """
 
 import itertools

@@ -1,5 +1,4 @@
-"""Unilateral contact along the beam: complementarity, symmetry, momentum, energy; what the hold does; a wall that pulls
-a little, by a law of somebody's own; contact points without mass."""
+"""Unilateral contact along the beam; what the hold does; a wall that pulls a little; contact points without mass."""
 
 from dataclasses import dataclass
 from typing import Annotated, ClassVar

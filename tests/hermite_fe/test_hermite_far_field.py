@@ -19,29 +19,18 @@ UNDAMPED = GridViscosity(viscosity=0.0)
 
 
 def returned(nodes: Array, far_field: FarField, number: float, start: float, turn: float) -> float:
-    """Amplitude that comes back to x < start from a packet of unit amplitude and wave number sent out at ``start``.
-
-    turn : how far out it gets at most; looked at from the time it would be there to the time it would be back twice.
-    """
+    """Amplitude that comes back to x < start from a packet of unit amplitude and wave number sent out at ``start``:
+    from when it would be at ``turn``, as far out as it gets, until it would be back twice."""
     beam = HermiteBeam(nodes, 1.0, 1.0)
     width, k, x = min(12.0 / number, start / 5.0), number, nodes
-    envelope = np.exp(-0.5 * ((x - start) / width) ** 2)
-    y = (x - start) / width
-    first, second = -y / width * envelope, (y**2 - 1.0) / width**2 * envelope
-    third = (3.0 * y - y**3) / width**3 * envelope
-    cos, sin = np.cos(k * x), np.sin(k * x)
-    # u = Re[A exp(ikx)] and its velocity Re[i ∂ₓₓ(A exp(ikx))]: every number in it runs outwards
-    q = beam.interpolate(envelope * cos, first * cos - k * envelope * sin)
-    v = beam.interpolate(
-        (k**2 * envelope - second) * sin - 2.0 * k * first * cos,
-        (3.0 * k**2 * first - third) * sin + (k**3 * envelope - 3.0 * k * second) * cos,
-    )
-    system = System(
-        mass=beam.mass(),
-        stiffness=beam.stiffness(),
-        dampings=far_field.dampings(beam, Impact(1.0, 1.0, 2.0 * nodes[-1], 0.0, 1.0)),
-        contacts=ContactRows(dofs=[[0]], factors=[[-1.0]], gap=[1e9]),
-    )
+    # u = Re f, f = exp(ikx − (x − start)²/2w²), and its velocity Re if″: every number in it runs outwards
+    f = np.exp(1j * k * x - 0.5 * ((x - start) / width) ** 2)
+    rate, change = 1j * k - (x - start) / width**2, -1.0 / width**2  # f′/f, and how that changes
+    first, second, third = rate * f, (rate**2 + change) * f, (rate**3 + 3.0 * rate * change) * f
+    q, v = beam.interpolate(f.real, first.real), beam.interpolate((1j * second).real, (1j * third).real)
+    dampings = far_field.dampings(beam, Impact(1.0, 1.0, 2.0 * nodes[-1], 0.0, 1.0))
+    away = ContactRows(dofs=[[0]], factors=[[-1.0]], gap=[1e9])
+    system = System(mass=beam.mass(), stiffness=beam.stiffness(), dampings=dampings, contacts=away)
     end = 4.0 * (turn - start) / (2.0 * k)
     scheme = NonsmoothGeneralizedAlpha(0.05 / k**2, levels="velocity", spectral_radius=1.0)
     run = integrate(system, q, v, scheme, end, save=np.linspace(0.25, 1.0, 60) * end)

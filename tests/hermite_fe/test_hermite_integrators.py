@@ -1,5 +1,4 @@
-"""Every integrator on systems that are no beams: a bouncing ball, an oscillator against a stop, two masses; and the
-integrator that the guide writes."""
+"""Every integrator, that of the guide too, on a bouncing ball, an oscillator against a stop, two masses."""
 
 import math
 import re

@@ -1,5 +1,4 @@
-"""Steps of a beam by every integrator: the energy account, which shows what is falsified; no subnormal numbers; nothing
-strange for odd steps."""
+"""Steps of a beam by every integrator: the energy account, which shows what is falsified; odd steps and numbers."""
 
 from collections.abc import Iterator
 from itertools import chain

@@ -1,5 +1,4 @@
-"""The kernel against its definition in multiprecision (2.3.2), (2.3.3), (2.7.12); the φ functions against their
-defining integrals and their closed forms (A.5)."""
+"""The kernel against its definition (2.3.2), (2.3.3), (2.7.12); φ functions against integrals and closed forms."""
 
 from collections.abc import Callable
 

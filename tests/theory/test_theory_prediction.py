@@ -258,8 +258,7 @@ def test_the_moment_ahead_of_a_damped_point_has_no_number_in_its_first_75_dampin
 
 @pytest.mark.parametrize(("age", "share"), [(1e-3, 0.24), (damped_point.AHEAD_FROM, 0.98 * 0.5597868)])
 def test_the_elastic_moment_ahead_of_a_damped_point_becomes_that_without_damping(age: float, share: float) -> None:
-    """Over that at the contact. Its transform is e^{−aX}(cos aX − sin aX)/(s√(1 + s)), a = √(s/2)/(1 + s)^{1/4}, with
-    times in η and places in √(cη)."""
+    """Over that at the contact; times in η, places in √(cη). The inverse of e^{−aX}(cos aX − sin aX)/(s√(1 + s))."""
 
     def moment(place: float) -> float:
         def transform(s: mp.mpc) -> mp.mpc:
