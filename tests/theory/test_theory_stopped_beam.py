@@ -47,14 +47,11 @@ def test_first_release_is_where_the_reaction_first_changes_sign(damping: float) 
     assert np.all(beam.reaction(before) > 0.0) and beam.reaction(found.time * (1.0 + 1e-9)) < 0.0
 
 
-def test_little_damping_gives_the_leading_order_at_early_times() -> None:
-    time, beam = 3e-4, StoppedBeam(1e-8)
+def test_little_damping_begins_with_the_leading_order_and_the_impulse_ends_at_the_momentum_of_the_beam() -> None:
+    time, early = 3e-4, StoppedBeam(1e-8)
     r0 = contact_parameters(2.0).r0
-    assert beam.impulse(time) == pytest.approx(4.0 * np.sqrt(2.0 / np.pi * time) * r0, rel=1e-5)
-    assert beam.midspan_moment(time) == pytest.approx(1.0, rel=1e-9)
-
-
-def test_the_impulse_ends_at_the_momentum_of_the_beam() -> None:
+    assert early.impulse(time) == pytest.approx(4.0 * np.sqrt(2.0 / np.pi * time) * r0, rel=1e-5)
+    assert early.midspan_moment(time) == pytest.approx(1.0, rel=1e-9)
     beam = StoppedBeam(1e-2)
     assert beam.impulse(0.0) == 0.0
     # held for ever the beam comes to rest: all of its momentum, 2μℓV₀, has gone into the wall
