@@ -37,10 +37,6 @@ def run(impact=SHORT, **parts):
     exudyn_models.simulate(impact, **({"mesh": MESH} | parts))
 
 
-def build(**parts):
-    exudyn_models.build(SHORT, mesh=MESH, **parts)
-
-
 def table(part, **settings):
     method_from_tables("exudyn", {part: settings})
 
@@ -83,9 +79,9 @@ REFUSED = [
     (lambda: asked(SHEARED, element=ANCFCable()), "ancf_cable" + WAY),
     (lambda: asked(SHEARED, contact=SegmentFriction()), "cables" + WAY),
     # what only simulate can do
-    *((lambda contact=contact: build(contact=contact), "use simulate")
+    *((lambda contact=contact: exudyn_models.build(SHORT, mesh=MESH, contact=contact), "use simulate")
       for contact in (Rigid(), Penalty(hold=4), Penalty(hold_start=0.01))),
-    (lambda: build(integrator=GeneralizedAlpha(relative_step=0.01)), "relative_step: steps of build are equal"),
+    (lambda: exudyn_models.build(SHORT, integrator=GeneralizedAlpha(relative_step=0.01)), "steps of build are equal"),
 ]  # fmt: skip
 
 

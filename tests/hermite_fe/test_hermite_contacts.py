@@ -110,9 +110,8 @@ def test_the_zone_stays_on_the_wall_with_the_hold() -> None:
 
 def test_no_hold_acts_once_waves_may_be_back() -> None:
     """On a beam of T* = 1 everything is released at 0.005, whatever was asked for."""
-    history = simulate(
-        Impact.whole_beam(0.3), end_time=0.02, mesh=ScaleFreeMesh(0.002, 1.02), contact=NodeContact(hold=16), save=80
-    )
+    parts = {"mesh": ScaleFreeMesh(0.002, 1.02), "contact": NodeContact(hold=16)}
+    history = simulate(Impact.whole_beam(0.3), end_time=0.02, save=80, **parts)
     held = history.array("held_impulse")
     assert history.settings["hold"]["until"] == pytest.approx(0.005)
     assert held[-1] == held[np.searchsorted(history.time, 0.0052)] < 0.0

@@ -17,7 +17,6 @@ from hermite_fe.integrators import MoreauJean, NonsmoothGeneralizedAlpha
 from hermite_fe.resolution import chosen_domain
 from hermite_fe.warnings_of_run import end_warnings
 
-R = 4.0 * math.sqrt(2.0 / math.pi)
 SHORT = Impact.dimensionless(0.5, length=40.0)
 
 
@@ -75,7 +74,7 @@ def test_first_order_reaction_at_kappa_one_half(groups: tuple[float, float], r1:
     late = tau >= 0.1
     slopes = [np.polyfit(tau[late] ** 1.5, ((one - base) / e)[late], 1)[0] for one, e in zip(loaded, (2e-3, 4e-3))]
     first = 2.0 * slopes[0] - slopes[1] - 4.0 / 3.0 * max(alpha + psi, 0.0) * lambda0
-    assert first / (R / 3.0) == pytest.approx(r1, rel=5e-3)
+    assert first / (4.0 * math.sqrt(2.0 / math.pi) / 3.0) == pytest.approx(r1, rel=5e-3)
 
 
 def test_without_contact_the_free_motion_is_reproduced() -> None:

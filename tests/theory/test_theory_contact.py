@@ -11,7 +11,6 @@ from many_digits import phi_pair, row, wave
 
 from theory import contact_parameters
 
-PARAMETERS = ("lambda0", "r0", "lambda1", "r1")
 COEFFICIENTS = st.integers(-1000, 1000).map(lambda n: n / 100.0)
 DIGITS = 110
 
@@ -141,7 +140,7 @@ def test_arguments_broadcast_and_arrays_equal_scalars() -> None:
     for index in np.ndindex(ratio.shape):
         single = contact_parameters(ratio[index], alpha[index], psi[index], 0.3)
         assert isinstance(single.lambda0, float) and found.regime[index] == single.regime
-        for name in PARAMETERS:
+        for name in ("lambda0", "r0", "lambda1", "r1"):
             assert getattr(found, name)[index] == pytest.approx(getattr(single, name), rel=1e-13)
 
 

@@ -7,7 +7,6 @@ from hypothesis import strategies as st
 
 from theory import ImpactFields, SelfSimilarWave, contact_parameters, kernel
 
-NAMES = ("deflection", "slope", "curvature", "velocity")
 slow = pytest.mark.verify
 
 
@@ -52,7 +51,7 @@ def test_convolution_equals_the_closed_form_everywhere(ratio: float) -> None:
     ahead = parameters.lambda0 + np.logspace(-10, 2, 5)
     x = np.unique([*np.linspace(0.0, parameters.lambda0, 3), *ahead])
     fast = ImpactFields(parameters).fast_layer(x * np.sqrt(tau), tau)
-    for name, scale in zip(NAMES, (tau, np.sqrt(tau), 1.0, 1.0), strict=True):
+    for name, scale in {"deflection": tau, "slope": np.sqrt(tau), "curvature": 1.0, "velocity": 1.0}.items():
         np.testing.assert_allclose(getattr(fast, name), scale * getattr(wave, name)(x), rtol=0.0, atol=1e-9)
 
 

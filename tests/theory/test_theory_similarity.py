@@ -9,10 +9,8 @@ from many_digits import row, wave
 
 from theory import SelfSimilarWave, contact_parameters, peak_moment, phi
 
-RATIOS = [1e-6, 1 / 1600, 0.05, 0.5, 0.9999, 1.0, 2.0, 50.0]
 
-
-@pytest.mark.parametrize("ratio", RATIOS)
+@pytest.mark.parametrize("ratio", [1e-6, 1 / 1600, 0.05, 0.5, 0.9999, 1.0, 2.0, 50.0])
 def test_momentum_equals_impulse_and_the_impact_conserves_energy(ratio: float) -> None:
     # beam: ½∫[(1−η_τ)² − 1] + ½∫η_ξξ² = energy of the fast layer − its momentum
     wave = SelfSimilarWave(contact_parameters(ratio))
