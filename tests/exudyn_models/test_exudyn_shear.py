@@ -86,10 +86,8 @@ def test_a_stopped_point_converges_to_the_transform() -> None:
     """The penalty is as soft as an element in shear: what the impulse lacks falls with the element. Bars are twice what
     half of the elements change. At 3 and 10 t_s."""
     runs = [stopped_run("exudyn", element, 10.0) for element in (0.12, 0.06, 0.03)]
-    impulse, moment = (
-        [np.interp((3.0, 10.0), run.time, over_theory(run, name) - 1.0) for run in runs]
-        for name in ("impulse", "moment")
-    )
+    impulse, moment = ([np.interp((3.0, 10.0), run.time, over_theory(run, name) - 1.0) for run in runs]
+                       for name in ("impulse", "moment"))  # fmt: skip
     for _, middle, fine in (impulse, moment):
         assert (np.abs(fine) <= 2.0 * np.abs(fine - middle)).all() and (np.abs(fine) < 0.01).all()
     assert (np.abs(impulse[2]) < 0.5 * np.abs(impulse[1]))[0] and (np.abs(impulse[1]) < 0.5 * np.abs(impulse[0]))[0]

@@ -48,10 +48,8 @@ def test_a_very_small_axial_force_changes_nothing(end, refine):
 
 
 def test_a_beam_that_is_nearly_buckled_gets_more_elements():
-    beam = Impact.whole_beam(2.0)
-    free, taut, pressed = (
-        ExudynModel().for_whole_beam(beam.replace(axial_force=n)).mesh.nodes(1.0).size for n in (0.0, 1.8, -1.8)
-    )
+    beams = [Impact.whole_beam(2.0).replace(axial_force=force) for force in (0.0, 1.8, -1.8)]
+    free, taut, pressed = (ExudynModel().for_whole_beam(beam).mesh.nodes(1.0).size for beam in beams)
     assert free == taut < pressed
 
 

@@ -67,10 +67,8 @@ def test_another_element_is_damped_no_more_than_the_cable():
 @pytest.mark.verify
 def test_another_element_bounces_as_the_cable_does():
     """With the cable's tolerance Newton's method stalled in its first step."""
-    impact = Impact.whole_beam(0.7, relative_damping=3e-3)
-    cable, other = (
-        ExudynModel(element=element).simulate_to_separation(impact) for element in (None, GeometricallyExact())
-    )
+    impact, kinds = Impact.whole_beam(0.7, relative_damping=3e-3), (None, GeometricallyExact())
+    cable, other = (ExudynModel(element=kind).simulate_to_separation(impact) for kind in kinds)
     assert other.energy_budget()["loss_viscous"] == 0.0
     assert restitution(other) == pytest.approx(restitution(cable), abs=2e-3)
     closes(other, 1e-5)

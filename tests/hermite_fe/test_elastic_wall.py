@@ -90,9 +90,8 @@ def test_the_wall_takes_the_momentum_never_pulls_and_half_the_beam_is_half_of_it
 
 def test_a_beam_that_comes_to_rest_on_its_wall_pushes_with_its_weight() -> None:
     """At rest nothing moves but the last digits: a step converges within these."""
-    impact = Impact.whole_beam(0.5, relative_damping=0.05).replace(
-        acceleration=5.0, wall_stiffness=1e3, wall_damping=44.0
-    )
+    wall = {"wall_stiffness": 1e3, "wall_damping": 44.0}
+    impact = Impact.whole_beam(0.5, relative_damping=0.05).replace(acceleration=5.0, **wall)
     method = HermiteFE(mesh=UniformMesh(0.05), integrator=Midpoint(time_step=2e-4))
     rest = method.simulate(impact, end_time=8.0, save=100)
     assert np.abs(rest.array("velocity", -1)).max() < 1e-10

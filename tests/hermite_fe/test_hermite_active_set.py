@@ -120,9 +120,8 @@ def test_contact_problems_are_solved_as_by_trying_every_active_set(seeds: range)
 def test_the_factors_solve_like_lapack_s() -> None:
     """The step matrix of a strongly graded beam."""
     beam = HermiteBeam(ScaleFreeMesh(element_length=1e-3, growth=1.02).nodes(10.0), 1.0, 1.0)
-    system = System(
-        mass=beam.mass(), stiffness=beam.stiffness(), contacts=ContactRows(dofs=[[0]], factors=[[1.0]], gap=[0.0])
-    )
+    one = ContactRows(dofs=[[0]], factors=[[1.0]], gap=[0.0])
+    system = System(mass=beam.mass(), stiffness=beam.stiffness(), contacts=one)
     problem, conditions = ready(system, 1e-6)
     bands = system.mass + 1e-6 * system.stiffness
     errors = []
@@ -146,10 +145,8 @@ def test_a_front_that_runs_and_lifts_leaves_no_sign_wrong(width: int) -> None:
         m = 200 - (width > 1)
         dofs = 2 * np.arange(m)[:, None] + np.arange(width)
         factors = np.tile({1: [-1.0], 4: [-0.5, -0.1, -0.5, 0.1]}[width], (m, 1))
-        rows = ContactRows(dofs=dofs, factors=factors, gap=np.zeros(m))
-        system = System(
-            mass=beam.mass(), stiffness=beam.stiffness(), contacts=rows, supports=(1,) if width == 1 else ()
-        )
+        rows, held = ContactRows(dofs=dofs, factors=factors, gap=np.zeros(m)), (1,) if width == 1 else ()
+        system = System(mass=beam.mass(), stiffness=beam.stiffness(), contacts=rows, supports=held)
         problem, conditions = ready(system, 0.3)
         S, G, n = dense(system.mass + 0.3 * system.stiffness), np.zeros((m, system.dofs)), system.dofs
         np.put_along_axis(G, dofs, factors, axis=1)

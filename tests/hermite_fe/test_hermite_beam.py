@@ -87,9 +87,8 @@ def test_modes_have_the_frequency_of_the_pinned_and_the_damping_of_the_free_beam
     nodes = UniformMesh(0.02).nodes(1.0)
     model = beam_model(Impact(1.0, 1.0, 2.0, 0.5, 1.0, damping=eta), nodes, FREE, QUIET, full=False)
     ratio = math.cos(k) / math.cosh(k)
-    q = model.beam.interpolate(
-        np.cos(k * nodes) + ratio * np.cosh(k * nodes), k * (-np.sin(k * nodes) + ratio * np.sinh(k * nodes))
-    )
+    slope = k * (-np.sin(k * nodes) + ratio * np.sinh(k * nodes))
+    q = model.beam.interpolate(np.cos(k * nodes) + ratio * np.cosh(k * nodes), slope)
     force = product(dict(model.system.dampings)["material"], q)
     assert (q @ force) / (q @ product(model.system.mass, q)) == pytest.approx(eta * k**4, rel=1e-5)
 
@@ -101,9 +100,8 @@ def test_momentum_is_what_wall_and_load_give_under_tension_and_damping(kind: str
     integrator, mesh, contact = INTEGRATORS[kind](time_step=2e-4), UniformMesh(0.05), FREE
     if integrator.elastic:
         impact, contact = impact.replace(wall_stiffness=1e4, wall_damping=50.0), None
-    history = simulate(
-        impact, end_time=0.05, mesh=mesh, contact=contact, far_field=QUIET, integrator=integrator, mass=mass, save=5
-    )
+    parts = {"mesh": mesh, "contact": contact, "far_field": QUIET, "integrator": integrator, "mass": mass}
+    history = simulate(impact, end_time=0.05, save=5, **parts)
     system = beam_model(impact, mesh.nodes(2.0), FREE, QUIET, full=False, mass=mass).system
     rigid = np.tile([1.0, 0.0], 41)
     weights = product(system.mass, rigid)[0::2]  # the slopes' part is small, and nothing where masses are lumped
@@ -129,9 +127,8 @@ def test_a_bulging_wall_is_a_beam_bent_so_much_more() -> None:
 def test_the_first_impact_stops_the_mass_that_moves_with_a_node(mass: Mass) -> None:
     """Thesis 3.4: μΔxV₀ = 1 N s and ½μΔxV₀² = 10 J of a lumped mass; of the consistent matrix 1/(M⁻¹)₀₀ V₀."""
     impact = Impact(bending_stiffness=1.0, mass_per_length=1.0, length=1.0, curvature=25.0, velocity=20.0)
-    history = simulate(
-        impact, end_time=1e-9, mesh=UniformMesh(0.05), integrator=MoreauJean(1e-10), far_field=QUIET, mass=mass, save=2
-    )
+    parts = {"mesh": UniformMesh(0.05), "integrator": MoreauJean(1e-10), "far_field": QUIET, "mass": mass}
+    history = simulate(impact, end_time=1e-9, save=2, **parts)
     energy = history.array("kinetic_energy") + history.array("strain_energy")
     beam = HermiteBeam(np.linspace(-0.5, 0.5, 21), 1.0, 1.0)
     moved = 20.0 / solveh_banded(mass.matrix(beam), np.eye(42)[20], lower=True)[20]

@@ -91,9 +91,8 @@ def test_a_curved_wall_takes_its_curvature_from_the_beams_and_the_method_runs_it
 
 
 def test_the_middle_lifts_when_the_load_pulls_and_stays_unpulled_when_it_pushes():
-    pulled, pushed = (
-        simulate_expanding(Impact.dimensionless(0.5, epsilon_alpha=a), SHORT, end_time=0.1) for a in (-0.5, 0.5)
-    )
+    impacts = [Impact.dimensionless(0.5, epsilon_alpha=alpha) for alpha in (-0.5, 0.5)]
+    pulled, pushed = (simulate_expanding(impact, SHORT, end_time=0.1) for impact in impacts)
     assert pulled.array("lift")[-1] / 0.1 > 1e-3
     assert pushed.array("lift")[-1] / 0.1 < 1e-5
     scale = pushed.impact.velocity * pushed.time
