@@ -16,6 +16,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -59,26 +60,32 @@ class Sheet:
     rows: list[list[Any]] = field(default_factory=list)
     numbers: dict[str, float | None] = field(default_factory=dict)
     files: dict[str, Callable[[Path], object]] = field(default_factory=dict)
-    _context: Any = None
 
     @contextmanager
     def figure(
-        self, rows: int = 1, columns: int = 1, *, letters: bool = True, **kwargs: Any
+        self,
+        rows: int = 1,
+        columns: int = 1,
+        *,
+        texts: Sequence[str] = (),
+        letters: bool = True,
+        legend: int = 0,
+        legend_size: float | None = None,
+        **kwargs: Any,
     ) -> Iterator[tuple[Figure, Any]]:
-        """``style.figure`` whose figure is kept open for :meth:`save`; several axes get letters."""
-        self._context = style.figure(rows, columns, **kwargs)
-        self.figure_, axes = self._context.__enter__()
-        yield self.figure_, axes
-        if letters and np.size(axes) > 1 and not self.panels:
-            self.letter(axes)
+        """``style.figure``, a page wide where it has columns, and kept for :meth:`save`.
 
-    def close(self) -> None:
-        """Close the figure."""
-        if self._context is not None:
-            self._context.__exit__(None, None, None)
-            self._context = None
+        texts : beside the letters that several axes get. legend : columns of one legend below (0: none).
+        """
+        width = style.PAGE if columns > 1 else style.COLUMN
+        with style.figure(rows, columns, **{"width": width} | kwargs) as (self.figure_, axes):
+            yield self.figure_, axes
+            if letters and np.size(axes) > 1:
+                self._letter(axes, texts)
+            if legend:
+                legend_below(self.figure_, axes, legend, fontsize=legend_size)
 
-    def letter(self, axes: Any, texts: Sequence[str] = ()) -> None:
+    def _letter(self, axes: Any, texts: Sequence[str]) -> None:
         """Name the axes (a), (b) …, row by row, in the picture and in the CSV; ``texts`` stand beside the letters."""
         for i, axis in enumerate(np.ravel(axes)):
             self.panels[id(axis)] = "abcdefgh"[i]
@@ -143,8 +150,8 @@ class Sheet:
 
         Raises ``ValueError`` where nothing was drawn.
         """
-        files = [] if self.figure_ is None else style.save(self.figure_, out, name, formats)
-        self.close()
+        with matplotlib.rc_context(style.RC):
+            files = [] if self.figure_ is None else style.save(self.figure_, out, name, formats)
         for ending, write in self.files.items():
             files.append(out / f"{name}{ending}")
             write(files[-1])
@@ -153,6 +160,14 @@ class Sheet:
         files.append(out / f"{name}.csv")
         write_atomically(files[-1], self.csv())
         return files
+
+
+def legend_below(fig: Any, axes: Any, columns: int, **drawn: Any) -> None:
+    """One legend under the whole figure, of the axis with the most entries, theory's first."""
+    handles, labels = max((axis.get_legend_handles_labels() for axis in np.ravel(axes)), key=lambda pair: len(pair[1]))
+    pairs = sorted(zip(handles, labels), key=lambda pair: not pair[1].startswith("theory"))
+    place = {"loc": "outside lower center", "ncols": columns}
+    fig.legend([p[0] for p in pairs], [p[1] for p in pairs], **place | drawn)
 
 
 Draw = Callable[[Sheet], None]

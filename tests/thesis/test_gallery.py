@@ -38,7 +38,6 @@ def sheet_of(name: str) -> Sheet:
     """An item's data and numbers; its picture, which takes longest, is not written."""
     sheet = Sheet()
     ITEMS[name].draw(sheet)
-    sheet.close()
     return sheet
 
 
@@ -180,7 +179,6 @@ def test_free_motion_and_fast_layer_agree_in_the_contact_zone(name, panels, seri
 def test_a_figure_of_runs_has_a_column_a_mass_and_our_methods_on_theory() -> None:
     sheet = Sheet()
     run_figure(sheet, Series(10.0, 0.002, {"own": {}}), (contact_length, *REACTION[:1]))
-    sheet.close()
     curves = {(sheet.panels[id(c.axis)], c.series): (c.x, c.y) for c in sheet.curves}
     for panel in "abcd":  # contact length and reaction, lumped and consistent
         exact = curves[panel, "theory"]

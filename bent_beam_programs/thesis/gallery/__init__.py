@@ -74,8 +74,6 @@ def draw_item(name: str, out: Path, formats: Sequence[str]) -> dict[str, Any]:
         write_atomically(mark, json.dumps({"key": key, "drawn": drawn}, indent=1))
     except ANY_FAILURE as error:
         return {"id": name, "reason": f"{type(error).__name__}: {' '.join(str(error).split())}"}
-    finally:
-        sheet.close()
     return drawn
 
 

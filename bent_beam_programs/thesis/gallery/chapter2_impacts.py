@@ -9,7 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.axes import Axes
 
-from bent_beam_programs.thesis.gallery.drawing import beam_panel, legend_below, plain_line
+from bent_beam_programs.thesis.gallery.drawing import beam_panel, plain_line
 from bent_beam_programs.thesis.sheet import Sheet, item
 from comparison.figures import style
 from comparison.readable import readable
@@ -37,8 +37,9 @@ def leading_zone(sheet: Sheet) -> None:
     (2.6.25–26) of the thesis lack the factor r₀/π that (2.6.29) has; with it they agree.
     """
     shown = ((0.5, 0.1), (0.5, 0.5), (0.8, 0.1), (0.8, 0.5))
+    texts = [rf"$\kappa = {kappa}$, $\tau = {tau}$" for kappa, tau in shown]
     worst = []
-    with sheet.figure(4, 2, width=style.PAGE, height=6.8) as (fig, axes):
+    with sheet.figure(4, 2, height=6.8, texts=[*texts[:2], "", "", *texts[2:]], legend=3) as (_, axes):
         for axis, below, (kappa, tau) in zip(axes[0::2].flat, axes[1::2].flat, shown):
             fields = ImpactFields(contact_parameters(kappa))
             xi = PLACES * float(fields.half_contact_length(tau))
@@ -49,9 +50,6 @@ def leading_zone(sheet: Sheet) -> None:
             sheet.line(axis, PLACES, fast, series="fast layer", **style.THEORY)
             zone_panel(below, r"free $-$ fast")
             sheet.line(below, PLACES, free - fast, series="free motion less fast layer", **style.THEORY)
-        texts = [rf"$\kappa = {kappa}$, $\tau = {tau}$" for kappa, tau in shown]
-        sheet.letter(axes, [*texts[:2], "", "", *texts[2:]])
-        legend_below(fig, axes[0, 0])
     sheet.numbers["largest difference within |a| ≤ 1"] = max(worst)
 
 
@@ -66,7 +64,8 @@ def first_order_zone(sheet: Sheet) -> None:
     loads = ((0.8, 0.0, 2.0), (0.5, 4.0, 0.0))
     shown = [(*load, tau) for tau in (0.1, 0.5) for load in loads]
     inside = np.abs(PLACES) <= 1.0
-    with sheet.figure(4, 2, width=style.PAGE, height=6.8) as (fig, axes):
+    texts = [rf"$\kappa = {k}$, $\alpha = {a:g}$, $\psi = {p:g}$, $\tau = {t}$" for k, a, p, t in shown]
+    with sheet.figure(4, 2, height=6.8, texts=[*texts[:2], "", "", *texts[2:]], legend=3) as (_, axes):
         for axis, below, letter, (kappa, alpha, psi, tau) in zip(axes[0::2].flat, axes[1::2].flat, "abef", shown):
             fields = ImpactFields(contact_parameters(kappa, alpha, psi), epsilon=EPSILON)
             p, xi = fields.parameters, PLACES * float(fields.half_contact_length(tau))
@@ -91,20 +90,16 @@ def first_order_zone(sheet: Sheet) -> None:
                 f"({letter}) fast layer less printed free motion at a = 1": float((fast - printed)[inside][-1]),
                 f"({letter}) largest difference, not truncated": float(np.abs(free - fast)[inside].max()),
             }
-        texts = [rf"$\kappa = {k}$, $\alpha = {a:g}$, $\psi = {p:g}$, $\tau = {t}$" for k, a, p, t in shown]
-        sheet.letter(axes, [*texts[:2], "", "", *texts[2:]])
-        legend_below(fig, axes[0, 0], 3)
 
 
 def two_columns(sheet: Sheet, times: Sequence[float], high: float, load: tuple[float, ...], epsilon: float) -> None:
     """The beam at several times for κ = 0.5 (left) and κ = 2 (right)."""
-    with sheet.figure(3, 2, width=style.PAGE, height=6.4) as (fig, axes):
-        shown = [(tau, kappa, low) for tau in times for kappa, low in ((0.5, -0.6), (2.0, -1.6))]
+    shown = [(tau, kappa, low) for tau in times for kappa, low in ((0.5, -0.6), (2.0, -1.6))]
+    texts = [rf"$\kappa = {kappa}$, $\tau = {tau}$" for tau, kappa, _ in shown]
+    with sheet.figure(3, 2, height=6.4, texts=texts, legend=4) as (_, axes):
         for axis, (tau, kappa, low) in zip(axes.flat, shown):
             fields = ImpactFields(contact_parameters(kappa, *load), epsilon=epsilon)
             beam_panel(sheet, axis, fields, tau, (low, high))
-        sheet.letter(axes, [rf"$\kappa = {kappa}$, $\tau = {tau}$" for tau, kappa, _ in shown])
-        legend_below(fig, axes[0, 0], 4)
 
 
 @item("fig-2.9")
@@ -137,12 +132,11 @@ def discrete(sheet: Sheet) -> None:
     0.
     """
     fields = ImpactFields(contact_parameters(2.0, -1.0, -1.0), epsilon=EPSILON)
-    with sheet.figure(1, 3, width=style.PAGE, height=2.6) as (fig, axes):
+    texts = [r"$\tau = 0.1$", r"$\tau = 0.25$, zoom", r"$\tau = 0.5$"]
+    with sheet.figure(1, 3, height=2.6, texts=texts, legend=4) as (_, axes):
         beam_panel(sheet, axes[0], fields, 0.1, (-1.6, 0.6))
         beam_panel(sheet, axes[1], fields, 0.25, (-0.16, 0.06), zoom=0.5)
         beam_panel(sheet, axes[2], fields, 0.5, (-1.6, 0.6))
-        sheet.letter(axes, [r"$\tau = 0.1$", r"$\tau = 0.25$, zoom", r"$\tau = 0.5$"])
-        legend_below(fig, axes[0], 4)
 
 
 @item("fig-2.18")
@@ -155,7 +149,8 @@ def lifting(sheet: Sheet) -> None:
     """
     fields = ImpactFields(contact_parameters(0.5, -1.0, -1.0), epsilon=EPSILON)
     times = (0.1, 0.25, 0.5)
-    with sheet.figure(3, 2, width=style.PAGE, height=6.4) as (fig, axes):
+    texts = [rf"$\tau = {tau}${zoom}" for tau in times for zoom in ("", ", zoom")]
+    with sheet.figure(3, 2, height=6.4, texts=texts, legend=4) as (_, axes):
         for (left, right), tau in zip(axes, times):
             front = float(fields.half_contact_length(tau))
             depth = float(fields.beam(np.linspace(0.0, 1.6 * front, 161), tau).deflection.max())
@@ -166,8 +161,6 @@ def lifting(sheet: Sheet) -> None:
             beam_panel(sheet, right, fields, tau, (-high, high), zoom=1.5 * front)
             right.set_ylabel(r"deflection $w$  ($10^{-3}$)")
             right.yaxis.set_major_formatter(lambda value, _: f"{1e3 * value:.3g}".replace("-", "−"))
-        sheet.letter(axes, [rf"$\tau = {tau}${zoom}" for tau in times for zoom in ("", ", zoom")])
-        legend_below(fig, axes[0, 0], 4)
     p = fields.parameters
     sheet.numbers |= {
         "λ₀": float(p.lambda0),

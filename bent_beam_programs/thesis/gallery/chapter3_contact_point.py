@@ -9,7 +9,6 @@ from bent_beam_programs.thesis.gallery.drawing import (
     CellForces,
     beam_at_times,
     draw_maps,
-    legend_below,
     numbers_of,
     scatters_of,
 )
@@ -55,11 +54,11 @@ def compare(sheet: Sheet, *panels: Panel) -> None:
     """Panels of the four and of the references in a row, one legend, their numbers beside them."""
     own = four()
     outcomes = own + reference_runs(FLAT, 0.1)
-    with sheet.figure(1, len(panels), width=style.PAGE if len(panels) > 1 else 4.6, height=3.0) as (fig, axes):
+    count, width = len(panels), style.PAGE if len(panels) > 1 else 4.6
+    with sheet.figure(1, count, width=width, height=3.0, legend=2 + count, legend_size=7.0) as (_, axes):
         for axis, panel in zip(np.ravel(axes), panels):
             panel(sheet, axis, outcomes)
             numbers_of(sheet, outcomes, *NUMBERS.get(panel, ()))
-        legend_below(fig, np.ravel(axes)[0], 2 + len(panels), fontsize=7.0)
     if banded in panels:
         scatters_of(sheet, own)
 
@@ -67,7 +66,8 @@ def compare(sheet: Sheet, *panels: Panel) -> None:
 def evolution(sheet: Sheet, contact: str) -> None:
     """Geometry at several times, a panel for each mass."""
     places, last = np.linspace(0.0, 1.1, 300), TIMES[-1]
-    with sheet.figure(1, 2, width=style.PAGE, height=2.9) as (fig, axes):
+    texts = [f"{mass} mass" for mass in MASSES]
+    with sheet.figure(1, 2, height=2.9, texts=texts, legend=3, legend_size=7.0) as (_, axes):
         for axis, mass in zip(axes, MASSES):
             found = run(contact, mass)
             exact = found.exact
@@ -79,8 +79,6 @@ def evolution(sheet: Sheet, contact: str) -> None:
             lift = 1e3 * found.lift
             style.wall_below(axis, -1.4 * lift, 0.25 * lift)
             sheet.numbers[f"largest lift inside the zone (mm), {mass} mass"] = lift
-        sheet.letter(axes, [f"{mass} mass" for mass in MASSES])
-        legend_below(fig, axes[0], 3, fontsize=7.0)
 
 
 @item("fig-3.23", shown=SHOWN)
@@ -142,11 +140,10 @@ def strains(sheet: Sheet) -> None:
     has a quarter of the energy V₀∫R dt, most of it in waves that elements longer than the front is thick cannot carry.
     """
     found = four()
-    with sheet.figure(1, 2, width=style.PAGE, height=2.8) as (fig, axes):
+    with sheet.figure(1, 2, height=2.8, legend=3, legend_size=7.0) as (_, axes):
         strain(sheet, axes[0], found, theory=None)
         strain(sheet, axes[1], found)
         axes[1].set(yscale="log", ylim=(0.1, 400.0))
-        legend_below(fig, axes[1], 3, fontsize=7.0)
     sheet.numbers |= {f"J at t = 2.5·10⁻⁴ s, {o.label}": float(o.strain[-1]) for o in found}
     sheet.numbers["J at t = 2.5·10⁻⁴ s, theory"] = float(found[0].exact.strain_energy(found[0].time[-1]))
 
@@ -185,13 +182,12 @@ def starts(sheet: Sheet) -> None:
     """
     found = [run(contact, "lumped", BENT, 0.01) for contact in CONTACT]
     times = np.linspace(0.0, 5e-6, 200)
-    with sheet.figure(width=4.6, height=3.0) as (fig, axis):
+    with sheet.figure(width=4.6, height=3.0, legend=3, legend_size=7.0) as (_, axis):
         axis.set(xlabel="$t$  (µs)", ylabel=r"$\lambda_c$  (mm)", xlim=(0, 5), ylim=(0, 17))
         for o, colour in zip(found, COLOURS.values()):
             sheet.line(axis, 1e6 * o.time, 1e3 * o.front, series=o.label, color=colour, drawstyle="steps-post", lw=0.9)
             sheet.numbers[f"first reaction (s), {o.label}"] = float(o.time[np.argmax(o.side_impulse > 0.0)])
         sheet.line(axis, 1e6 * times, 1e3 * found[0].exact.front(times), series="theory", **style.THEORY)
-        legend_below(fig, axis, 3, fontsize=7.0)
 
 
 @item("fig-A.3", shown=SHOWN)
@@ -203,7 +199,8 @@ def unfiltered(sheet: Sheet) -> None:
     root mean square over theory. The thesis finds middles quieter: with lumped masses they are. The line at the top of
     (a) is μΔxV₀/h, the impact of one lumped node, again and again.
     """
-    with sheet.figure(2, 2, width=style.PAGE, height=4.4, sharex=True, sharey=True) as (_, axes):
+    texts = [f"{NAMES[contact]}, {mass} mass" for mass, contact in PAIRS]
+    with sheet.figure(2, 2, height=4.4, sharex=True, sharey=True, texts=texts) as (_, axes):
         for axis, (mass, contact) in zip(axes.flat, PAIRS):
             whole = run(contact, mass)
             assert whole.steps is not None
@@ -217,4 +214,3 @@ def unfiltered(sheet: Sheet) -> None:
             sheet.line(axis, 1e6 * time, 1e-3 * target, series="theory", **style.THEORY)
             axis.set(xlabel="$t$  (µs)", xlim=(0, 1e6 * time[-1]))
             axis.set(ylabel="reaction of one side  (kN)", ylim=(1e-1, 1e4), yscale="log")
-        sheet.letter(axes, [f"{NAMES[contact]}, {mass} mass" for mass, contact in PAIRS])

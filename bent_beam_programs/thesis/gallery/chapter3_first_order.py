@@ -14,7 +14,6 @@ from bent_beam.impact import Impact
 from bent_beam_programs.thesis.gallery.drawing import (
     beam_at_times,
     draw_maps,
-    legend_below,
     numbers_of,
     plain_line,
 )
@@ -140,7 +139,7 @@ def all_of_it(sheet: Sheet) -> None:
     is mostly noise from 0.6 ms on. The numbers are λ₁ in m/s^(3/2) by the thesis's fit (it prints 227 and −270.8): the
     fit tends to theory's as the part of the run shrinks.
     """
-    with sheet.figure(3, 2, width=style.PAGE, height=7.2) as (fig, axes):
+    with sheet.figure(3, 2, height=7.2, texts=[SIGNS[700.0], SIGNS[-700.0]], legend=3) as (_, axes):
         for column, acceleration in enumerate((700.0, -700.0)):
             name = SIGNS[acceleration]
             plain = replace(own(0.0), label=f"{study.OLD}, {SIGNS[0.0]}")
@@ -155,8 +154,6 @@ def all_of_it(sheet: Sheet) -> None:
             sheet.numbers[f"λ₁, {name}, theory"] = study.predicted(impact(acceleration))
             sheet.numbers |= {f"λ₁, {name}, {o.label}": study.fitted(o) for o in runs if o is not plain}
             sheet.numbers[f"λ₁, {name}, {runs[-1].label}, first 5 %"] = study.fitted(runs[-1], 0.05)
-        sheet.letter(axes, [SIGNS[700.0], SIGNS[-700.0]])
-        legend_below(fig, axes[1, 0], 3)
 
 
 def one_map(sheet: Sheet, acceleration: float) -> None:
@@ -212,7 +209,7 @@ def left_out(sheet: Sheet) -> None:
     """
     found = ours(17.0, 0.5)
     finite = found[0]
-    with sheet.figure(1, 2, width=style.PAGE, height=2.8) as (fig, axes):
+    with sheet.figure(1, 2, height=2.8, legend=3) as (_, axes):
         contact_length(sheet, axes[0], found)
         # a centroid means nothing where the reaction is random: such points are left outside
         axes[0].set_ylim(0.0, 1.3 * float(finite.exact.front(float(finite.time[-1]))))
@@ -220,5 +217,4 @@ def left_out(sheet: Sheet) -> None:
         # marks are further apart than waves are long
         blue = style.mark(HermiteFE.path)["color"]
         sheet.line(axes[1], finite.x, -1e3 * finite.gap, series="Hermite, every node", legend=False, color=blue, lw=0.7)
-        legend_below(fig, axes[0], 3)
     numbers_of(sheet, found, "contact_length_error", "seconds")

@@ -225,7 +225,7 @@ def discrete(sheet: Sheet) -> None:
     theory this impulse vanishes as Δx → 0, and R = 2√(2/π) r₀/√τ from the start.
     """
     middles = run("middle", ELEMENT, 50.0, LATE, 2.5e-7)
-    with sheet.figure(2, 2, width=style.PAGE, height=5.2) as (_, axes):
+    with sheet.figure(2, 2, height=5.2) as (_, axes):
         nodes = run("node", ELEMENT, 50.0, END, STEP, THESIS_MASS)
         geometry(sheet, axes[0, 0], nodes, (0.0, END), (-340, 30))
         geometry(sheet, axes[0, 1], middles, (0.0, 0.5 * MIDDLE, MIDDLE, LATE), (-60, 18))

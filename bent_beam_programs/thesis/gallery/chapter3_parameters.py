@@ -15,7 +15,6 @@ from bent_beam_programs.thesis.gallery.drawing import (
     REACTION,
     filtered_scatter,
     guide,
-    legend_below,
     named,
     numbers_of,
     plain_line,
@@ -111,7 +110,7 @@ def filter_decides(sheet: Sheet) -> None:
     outcomes, h = [o for o, _ in runs], [float(steps.time[0]) for _, steps in runs]
     # the smoothing, in seconds, of the thesis's step
     same = [replace(o, steps=replace(steps, cut_off=CUT_OFF * step / BASE)) for (o, steps), step in zip(runs, h)]
-    with sheet.figure(1, 3, width=style.PAGE, height=2.7) as (fig, axes):
+    with sheet.figure(1, 3, height=2.7, texts=["per step", "in seconds"], legend=6, legend_size=7.0) as (_, axes):
         for axis, shown in zip(axes, (outcomes, same)):
             filtered(sheet, axis, shown)
         axes[2].set(xscale="log", xlabel="$h$  (s)", ylabel="scatter over theory  (1)")
@@ -120,8 +119,6 @@ def filter_decides(sheet: Sheet) -> None:
             sheet.line(axes[2], h, np.array(off, float), series=f"filter {name}", **line)
             sheet.numbers |= {f"scatter, filter {name}, {o.label}": v for o, v in zip(shown, off)}
         axes[2].legend(fontsize=7)
-        sheet.letter(axes, ["per step", "in seconds", ""])
-        legend_below(fig, axes[0], 6, fontsize=7.0)
 
 
 @item("table-3.1")
@@ -255,7 +252,7 @@ def square_nodes(sheet: Sheet) -> None:
     curvature, laid = case(FLAT, 0.01).impact.curvature, SQUARE.nodes(25.0)
     shown = laid[laid <= 1.6 * SQUARE.zone]
     line = plain_line("blue", width=0.5, marker="o", ms=2.5)
-    with sheet.figure(1, 2, width=style.PAGE, height=2.5) as (_, axes):
+    with sheet.figure(1, 2, height=2.5) as (_, axes):
         axes[0].set(xlabel="$x$  (m)", ylabel="$y$  (mm)")
         axes[1].set(xlabel="$x$  (m)", ylabel=r"$\Delta x$  (mm)")
         sheet.line(axes[0], shown, -500.0 * curvature * shown**2, series="nodes", **line)
@@ -273,7 +270,8 @@ def square_length(sheet: Sheet) -> None:
     Contact length until τ = 0.01 on both meshes (above) and its last part (below); {square_case}. The thesis sees
     steps on the uniform mesh and none on the square one: there λ_c rests for a third of the time, but it does rest.
     """
-    with sheet.figure(2, 2, width=style.PAGE, height=4.6) as (fig, axes):
+    texts = [f"{mass} mass" for mass in MASSES] * 2
+    with sheet.figure(2, 2, height=4.6, texts=texts, legend=5, legend_size=7.0) as (_, axes):
         for column, mass in zip(axes.T, MASSES):
             found = ZONES.outcomes(mass)
             end = float(found[0].time[-1])
@@ -284,8 +282,6 @@ def square_length(sheet: Sheet) -> None:
             numbers_of(sheet, named(found, mass, mass != "lumped"), "contact_length_error")
             rest = "longest rest of λ_c in the last two fifths (µs)"
             sheet.numbers |= {f"{rest}, {o.label}, {mass}": 1e6 * longest_rest(o) for o in found[:2]}
-        sheet.letter(axes, [f"{mass} mass" for mass in MASSES] * 2)
-        legend_below(fig, axes[0, 0], 5, fontsize=7.0)
 
 
 def longest_rest(outcome: Outcome) -> float:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from bent_beam_programs.thesis.gallery.drawing import guide, legend_below, plain_line
+from bent_beam_programs.thesis.gallery.drawing import guide, plain_line
 from bent_beam_programs.thesis.sheet import Sheet, item
 from comparison.figures import style
 from hermite_fe import INTEGRATORS
@@ -114,19 +114,17 @@ def bouncing(sheet: Sheet) -> None:
     times, height = ball(1e-3, 3.0)
     predicted = predicting_ball(1e-3, times.size)
     dense, exact = exact_ball(3.0)
-    with sheet.figure(1, 2, width=style.PAGE, height=2.5) as (fig, axes):
+    with sheet.figure(1, 2, height=2.5, texts=["", "zoom"], legend=3) as (_, axes):
         for axis, marker in zip(axes, ("", ".")):
             axis.set(xlabel="$t$  (s)", ylabel="$q$  (m)")
             sheet.line(axis, dense, exact, series="theory", **style.THEORY)
             drawn = (("position predicted", predicted, "vermilion"), ("Moreau–Jean", height, "blue"))
             for series, y, colour in drawn:
                 sheet.line(axis, times, y, series=series, **plain_line(colour, width=0.9, marker=marker, ms=4))
-        sheet.letter(axes, ["", "zoom"])
         hit = float(np.sqrt(2.0 * HEIGHT / GRAVITY))
         axes[0].set(xlim=(0, 3), ylim=(0, 0.52))
         axes[1].set(xlim=(hit - 0.012, hit + 0.012), ylim=(-0.005, 0.04))
         guide(axes[1], y=0.0)
-        legend_below(fig, axes[0])
     sheet.numbers |= {
         "lowest height at the first bounce (m)": float(height[(times > 0.2) & (times < 0.5)].min()),
         "the same, position predicted (m)": float(predicted[(times > 0.2) & (times < 0.5)].min()),

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from bent_beam_programs.thesis.gallery.drawing import legend_below
 from bent_beam_programs.thesis.sheet import Sheet, item, items
 from comparison.figures import style
 from hermite_fe.beam import shape_functions
@@ -201,7 +200,7 @@ def nodes_and_middles(sheet: Sheet) -> None:
         ("nodes", np.arange(-2, 3, dtype=float), {"color": BLUE, "ls": "", "marker": "o", "ms": 5}),
         ("middles", np.arange(-1.5, 2.0), {"color": RED, "ls": "", "marker": "x", "ms": 5.5, "mew": 1.4}),
     )
-    with sheet.figure(1, 2, width=style.PAGE, height=2.3) as (fig, axes):
+    with sheet.figure(1, 2, height=2.3, texts=["node method", "middle method"], legend=3) as (_, axes):
         for axis, shift in zip(axes, (0.0, 0.25)):
             bare(axis, (-2.3, 2.3), (-4.3, 1.0))
             ground(axis, (-2.2, 2.2), 0.35)
@@ -211,5 +210,3 @@ def nodes_and_middles(sheet: Sheet) -> None:
             straight = shift - 0.5 * ((x - 0.5) ** 2 + (x + 0.5) ** 2)
             square: dict[str, Any] = {"color": GREY, "ls": "", "marker": "s", "ms": 4.5, "mfc": "none"}
             sheet.line(axis, x, straight, series="middles, straight lines", **square)
-        sheet.letter(axes, ["node method", "middle method"])
-        legend_below(fig, axes[1])

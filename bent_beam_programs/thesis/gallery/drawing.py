@@ -28,7 +28,6 @@ from bent_beam_programs.thesis.studies.panels import (
     filtered,
     geometry,
     impulse_off,
-    legend_below,
     unit,
 )
 from bent_beam_programs.thesis.studies.thesis import MASSES
@@ -87,7 +86,8 @@ def numbers_of(sheet: Sheet, outcomes: Sequence[Outcome], *names: str) -> None:
 def run_figure(sheet: Sheet, series: Series, panels: Sequence[Panel]) -> None:
     """Panels of the runs below one another, a column a mass; one legend, and the runs' numbers beside them."""
     rows = len(panels)
-    with sheet.figure(rows, 2, width=style.PAGE, height=2.3 * rows + 0.4, sharex="row") as (fig, axes):
+    height, texts = 2.3 * rows + 0.4, [f"{mass} mass" for mass in MASSES] * rows
+    with sheet.figure(rows, 2, height=height, sharex="row", texts=texts, legend=4, legend_size=7.0) as (_, axes):
         grid = np.reshape(axes, (rows, 2))
         for i, (column, mass) in enumerate(zip(grid.T, MASSES)):
             outcomes = series.outcomes(mass)
@@ -101,8 +101,6 @@ def run_figure(sheet: Sheet, series: Series, panels: Sequence[Panel]) -> None:
             if left.get_ylabel() == right.get_ylabel() and low < high:  # one unit, and no wall below
                 for axis in (left, right):
                     axis.set_ylim(min(low, one), max(high, other))
-        sheet.letter(grid, [f"{mass} mass" for mass in MASSES] * rows)
-        legend_below(fig, grid[0, 0], 4, fontsize=7.0)
 
 
 def filtered_scatter(outcome: Outcome) -> float | None:
@@ -196,10 +194,9 @@ def draw_maps(sheet: Sheet, histories: Mapping[str, ImpactHistory], rows: int, h
     cells = [cell_forces(history) for history in histories.values()]
     largest = max(float(c.force.max()) for c in cells)
     norm = LogNorm(largest / 10.0**DECADES, largest)
-    with sheet.figure(rows, 2, width=style.PAGE, height=height) as (fig, axes):
+    with sheet.figure(rows, 2, height=height, texts=list(histories)) as (fig, axes):
         for axis, history, found in zip(axes.flat, histories.values(), cells):
             drawn = one_map(sheet, axis, history, found, norm)
-        sheet.letter(axes, list(histories))
         fig.colorbar(drawn, ax=axes, label="reaction of a cell  (N)", pad=0.02, extend="min", aspect=30)
     return cells
 

@@ -13,9 +13,9 @@ from bent_beam.meshes import GradedMesh, UniformMesh
 from bent_beam_programs.thesis.gallery import chapter3_contact_point as contact_point
 from bent_beam_programs.thesis.gallery import chapter3_first_order as first
 from bent_beam_programs.thesis.gallery.chapter3_contact_point import COLOURS, CONTACT, FLAT, SHOWN
-from bent_beam_programs.thesis.gallery.drawing import guide, legend_below, numbers_of, plain_line
+from bent_beam_programs.thesis.gallery.drawing import guide, numbers_of, plain_line
 from bent_beam_programs.thesis.gallery.runs import case, reference_history, thesis
-from bent_beam_programs.thesis.sheet import Sheet, item
+from bent_beam_programs.thesis.sheet import Sheet, item, legend_below
 from bent_beam_programs.thesis.studies import conditioning as study
 from bent_beam_programs.thesis.studies.base import outcomes_of
 from bent_beam_programs.thesis.studies.exact import Exact
@@ -67,10 +67,9 @@ def fine(sheet: Sheet) -> None:
         thesis(f"Δx = {readable(dx)} m", 1.0, 0.01, mesh=GradedMesh(dx, 1.25, zone=zone, size_ratio=study.UNCAPPED))
         for dx in (2.5e-3, 1e-4)
     ]
-    with sheet.figure(1, 2, width=style.PAGE, height=2.8) as (fig, axes):
+    with sheet.figure(1, 2, height=2.8, legend=3) as (_, axes):
         contact_length(sheet, axes[0], found)
         geometry(sheet, axes[1], found)
-        legend_below(fig, axes[0], 3)
     numbers_of(sheet, found, "reaction_error", "seconds")
     sheet.numbers |= {f"energy residual over the largest loss, {o.label}": o.measures["defect"] for o in found}
 
@@ -102,7 +101,7 @@ def signorini(sheet: Sheet) -> None:
         "thesis's settings": (thesis("", 10.0, 0.1, contact="node").history, old),
         HermiteFE().label: (reference_history(10.0, 0.1, HermiteFE.path), style.mark(HermiteFE.path)),
     }
-    with sheet.figure(1, 2, width=style.PAGE, height=2.7) as (fig, axes):
+    with sheet.figure(1, 2, height=2.7, legend=2) as (_, axes):
         for name, (history, line) in runs.items():
             zone, t = whole_zone(history), history.time
             kept = np.flatnonzero(zone > 0.0)
@@ -112,7 +111,6 @@ def signorini(sheet: Sheet) -> None:
             sheet.numbers[f"∫y² dx/((V₀t)²λ_c) at the end, {name}"] = float(zone[-1])
         axes[0].set(xlabel="$t$  (µs)", ylabel=r"$\int y^2\,dx\;/\;(V_0t)^2\lambda_c$  (1)", yscale="log")
         axes[1].set(xlabel="$t$  (µs)", ylabel="impulse  (N s)")
-        legend_below(fig, axes[0], 2)
 
 
 def whole_zone(history: ImpactHistory) -> np.ndarray:
@@ -152,7 +150,7 @@ def coupling(sheet: Sheet) -> None:
     found = {contact: np.array([coupled(contact, LumpedMass(1.0 / n)) for n in ROTARY]) for contact in CONTACT}
     full = {contact: coupled(contact, MASSES["consistent"]) for contact in CONTACT}
     marks = {"node": "o", "middle": "s"}
-    with sheet.figure(1, 2, width=style.PAGE, height=3.0, sharey=True) as (fig, axes):
+    with sheet.figure(1, 2, height=3.0, sharey=True) as (fig, axes):
         axes[0].set(xscale="log", xlabel="rotary part $r$  (1)", ylabel="lift  (mm)", ylim=(0.0, 3.6))
         axes[0].set_xticks([1.0 / n for n in ROTARY], [f"1/{n:g}" for n in ROTARY], fontsize=6.5, rotation=45.0)
         axes[0].minorticks_off()

@@ -22,9 +22,8 @@ from bent_beam_programs.thesis.studies.base import Study
 from bent_beam_programs.thesis.studies.exact import Exact
 from bent_beam_programs.thesis.studies.of_methods import MethodOnCase, Setting
 from bent_beam_programs.thesis.studies.outcome import MEASURES, Outcome
-from bent_beam_programs.thesis.studies.panels import contact_length, geometry, legend_below, reaction
+from bent_beam_programs.thesis.studies.panels import contact_length, geometry, reaction
 from bent_beam_programs.thesis.studies.thesis import THESIS_MASS, Settings, Variant, thesis_settings
-from comparison.figures import style
 from hermite_fe import HermiteFE
 from self_similar_fe import ExpandingMesh, SelfSimilarFE
 
@@ -106,7 +105,7 @@ def fits(variant: Variant, outcome: Outcome) -> dict[str, float | None]:
 
 def draw(sheet: Sheet, outcomes: Sequence[Outcome]) -> None:
     """Geometry, contact length and reaction; a row for each sign of a₀."""
-    with sheet.figure(2, 3, width=style.PAGE, height=4.9) as (fig, axes):
+    with sheet.figure(2, 3, height=4.9, legend=4) as (_, axes):
         for row, sign in zip(axes, SIGNS):
             mine = [
                 replace(o, label=o.label.removeprefix(f"{SIGNS[sign]}a₀, "))
@@ -116,7 +115,6 @@ def draw(sheet: Sheet, outcomes: Sequence[Outcome]) -> None:
             for axis, panel in zip(row, (geometry, contact_length, reaction)):
                 if mine:
                     panel(sheet, axis, mine)
-        legend_below(fig, axes[0, 0], 4)
 
 
 STUDY = Study(

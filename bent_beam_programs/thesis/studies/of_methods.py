@@ -178,7 +178,7 @@ def draw_methods(sheet: Sheet, heading: str, outcomes: Sequence[Outcome]) -> Non
     settings = list(dict.fromkeys(o.setting for o in finished))
     marks = style.marks(o.method for o in finished)
     height = 4.4 + 0.17 * -(-len(marks) // 2) + 0.06 * max(map(len, settings))
-    with sheet.figure(2, 2, width=style.PAGE, height=height, sharex=True) as (fig, axes):
+    with sheet.figure(2, 2, height=height, sharex=True, legend=2, legend_size=6.5) as (_, axes):
         for axis, (name, title) in zip(axes.flat, PANELS.items()):
             for label, mark in marks.items():
                 mine = [o for o in finished if o.method == label]
@@ -192,8 +192,6 @@ def draw_methods(sheet: Sheet, heading: str, outcomes: Sequence[Outcome]) -> Non
             axis.set_xlim(-0.4, len(settings) - 0.6)
         for axis in axes[-1]:
             axis.set_xlabel(heading)
-        handles, labels = max((a.get_legend_handles_labels() for a in axes.flat), key=lambda pair: len(pair[1]))
-        fig.legend(handles, labels, loc="outside lower center", ncols=2, fontsize=6.5)
 
 
 def _decades(axis: Axes) -> None:

@@ -16,7 +16,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
-from bent_beam_programs.thesis.sheet import Sheet
+from bent_beam_programs.thesis.sheet import Sheet, legend_below
 from bent_beam_programs.thesis.studies.exact import Exact
 from bent_beam_programs.thesis.studies.outcome import Outcome
 from comparison.figures import style
@@ -252,13 +252,6 @@ def geometry_off(base: str) -> Panel:
     return draw
 
 
-def legend_below(fig: Any, axis: Axes, columns: int = 3, **drawn: Any) -> None:
-    """One legend under the whole figure, from one axis, theory's entry first."""
-    pairs = sorted(zip(*axis.get_legend_handles_labels()), key=lambda pair: not pair[1].startswith("theory"))
-    place = {"loc": "outside lower center", "ncols": min(columns, len(pairs))}
-    fig.legend([p[0] for p in pairs], [p[1] for p in pairs], **place | drawn)
-
-
 def draw_outcomes(sheet: Sheet, outcomes: Sequence[Outcome]) -> None:
     """The picture of a study: geometry, contact length, reaction, energy; one legend."""
     usable = [o for o in outcomes if o.failure is None]
@@ -266,7 +259,7 @@ def draw_outcomes(sheet: Sheet, outcomes: Sequence[Outcome]) -> None:
         return
     drawn: list[Panel] = [geometry, contact_length, reaction, *([energy] if usable[0].exact.leading else [])]
     rows = 2 if len(drawn) == 4 else 1
-    with sheet.figure(rows, len(drawn) // rows, width=style.PAGE, height=2.5 * rows + 0.3) as (fig, axes):
+    with sheet.figure(rows, len(drawn) // rows, height=2.5 * rows + 0.3) as (fig, axes):
         for axis, draw in zip(axes.flat, drawn):
             draw(sheet, axis, usable)
-        legend_below(fig, axes.flat[0], loc="outside upper center", fontsize=7.0)
+        legend_below(fig, axes, 3, loc="outside upper center", fontsize=7.0)
