@@ -8,40 +8,24 @@ from typing import Annotated
 
 import typer
 
-from comparison.command_line.options import (
-    Fresh,
-    Json,
-    Methods,
-    Overwrite,
-    Quiet,
-    Refine,
-    Scheduler,
-    Set,
-    emit,
-    factors,
-    path_names,
-    progress,
-)
+from comparison.command_line import options
 
 
 def report(
     out: Annotated[Path, typer.Option(help="Folder to write into.")] = Path("out/report"),
     jobs: Annotated[int, typer.Option("--jobs", "-j", min=1, help="Processes on this machine.")] = os.cpu_count() or 1,
-    scheduler: Scheduler = None,
+    scheduler: options.Scheduler = None,
     path: Annotated[
         list[str] | None,
-        typer.Option(
-            help="hermite, self_similar, exudyn or an installed one; repeatable. Default: these three.",
-            autocompletion=path_names,
-        ),
+        options.of_path("hermite, self_similar, exudyn or an installed one; repeatable. Default: these three."),
     ] = None,
-    assignments: Set = None,
-    methods: Methods = None,
-    refine: Refine = "0.5,1",
-    fresh: Fresh = False,
-    overwrite: Overwrite = False,
-    as_json: Json = False,
-    quiet: Quiet = False,
+    assignments: options.Set = None,
+    methods: options.Methods = None,
+    refine: options.Refine = "0.5,1",
+    fresh: options.Fresh = False,
+    overwrite: options.Overwrite = False,
+    as_json: options.Json = False,
+    quiet: options.Quiet = False,
 ) -> None:
     """Match methods with the theory; write one HTML page.
 
@@ -63,12 +47,12 @@ def report(
     if page.exists() and not overwrite:
         raise InputError(f"--out: {page} exists already (give another folder, or --overwrite)")
     named = path or (() if methods else PATHS)
-    chosen, refines = chosen_methods(named, assignments or (), methods or ()), factors(refine)
+    chosen, refines = chosen_methods(named, assignments or (), methods or ()), options.factors(refine)
     check_writable(out, folder=True)
     store = RunStore.usual(fresh)
-    with progress("report", quiet) as bar:
+    with options.progress("report", quiet) as bar:
         asked = report_questions(chosen, refines)
         found = write_report(out, chosen, asked, store=store, jobs=jobs, scheduler=scheduler, progress=bar.count)
-    emit(found, as_json, lambda: f"{found['headline']}\nReport: {page}")
+    options.emit(found, as_json, lambda: f"{found['headline']}\nReport: {page}")
     if found["failures"]:
         raise typer.Exit(3)

@@ -7,26 +7,14 @@ from typing import Annotated
 
 import typer
 
-from comparison.command_line.options import (
-    Jobs,
-    Json,
-    Methods,
-    Quiet,
-    Refine,
-    Set,
-    complete,
-    emit,
-    factors,
-    path_names,
-    progress,
-)
+from comparison.command_line import options
 
 
 def study_names(incomplete: str) -> list[str]:
     """Completion of the study's name."""
     from bent_beam_programs.thesis.studies import STUDIES
 
-    return complete(["list", *STUDIES], incomplete)
+    return options.complete(["list", *STUDIES], incomplete)
 
 
 def study(
@@ -36,20 +24,18 @@ def study(
     case: Annotated[Path | None, typer.Argument(metavar="CASE.toml", help="Case file.")] = None,
     path: Annotated[
         list[str] | None,
-        typer.Option(
-            "--path",
-            help="hermite, self_similar, exudyn or an installed one; repeatable. Without any of --path, --methods, "
-            "--refine and --set of a path: the thesis's settings.",
-            autocompletion=path_names,
+        options.of_path(
+            "hermite, self_similar, exudyn or an installed one; repeatable. Without any of --path, --methods, --refine "
+            "and --set of a path: the thesis's settings."
         ),
     ] = None,
-    assignments: Set = None,
-    methods: Methods = None,
-    refine: Refine = None,
+    assignments: options.Set = None,
+    methods: options.Methods = None,
+    refine: options.Refine = None,
     out: Annotated[Path | None, typer.Option(help="Folder for figure, table and conclusion.")] = None,
-    jobs: Jobs = 1,
-    as_json: Json = False,
-    quiet: Quiet = False,
+    jobs: options.Jobs = 1,
+    as_json: options.Json = False,
+    quiet: options.Quiet = False,
 ) -> None:
     """Vary one numerical parameter and tabulate its effect.
 
@@ -66,7 +52,7 @@ def study(
 
     if name == "list":
         titles = [{"name": n, "title": s.title} for n, s in STUDIES.items()]
-        emit(titles, as_json, lambda: "\n".join(f"{one['name']:>16}  {one['title']}" for one in titles))
+        options.emit(titles, as_json, lambda: "\n".join(f"{one['name']:>16}  {one['title']}" for one in titles))
         return
     if name not in STUDIES:
         raise InputError(f"study {name!r} is not known{nearest(name, STUDIES)}")
@@ -76,11 +62,11 @@ def study(
     loaded = load_case(case, assignments or ())
     asked = path or of_paths or methods or refine is not None
     varied = chosen_methods(path or (), of_paths, methods or (), loaded) if asked else []
-    refines = factors(refine)
+    refines = options.factors(refine)
     if out is not None:
         check_writable(out, folder=True)
-    with progress(f"study {name}", quiet) as bar:
+    with options.progress(f"study {name}", quiet) as bar:
         found = run_study(name, loaded, methods=varied, refines=refines, out=out, jobs=jobs, progress=bar.count)
-    emit(found.to_dict(), as_json, found.text)
+    options.emit(found.to_dict(), as_json, found.text)
     if found.problem:
         raise InputError(found.problem)

@@ -4,29 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from bent_beam_programs.thesis.gallery.drawing import (
-    NUMBERS,
-    CellForces,
-    beam_at_times,
-    draw_maps,
-    numbers_of,
-    scatters_of,
-)
+from bent_beam_programs.thesis.gallery import drawing
 from bent_beam_programs.thesis.gallery.runs import reference_runs, thesis
 from bent_beam_programs.thesis.sheet import Sheet, item, items
+from bent_beam_programs.thesis.studies import panels
 from bent_beam_programs.thesis.studies.exact import Exact
 from bent_beam_programs.thesis.studies.numerical import NAMES
 from bent_beam_programs.thesis.studies.outcome import Outcome, scatter
-from bent_beam_programs.thesis.studies.panels import (
-    LINES,
-    Panel,
-    banded,
-    contact_length,
-    energy,
-    impulse_off,
-    length_off,
-    strain,
-)
 from bent_beam_programs.thesis.studies.thesis import MASSES
 from comparison.figures import style
 from comparison.readable import readable
@@ -34,7 +18,7 @@ from comparison.readable import readable
 FLAT, BENT = 1.0 / 80.0, 1.0
 CONTACT = ("node", "middle")
 PAIRS = [(mass, contact) for mass in MASSES for contact in CONTACT]
-COLOURS = dict(zip(PAIRS, LINES))
+COLOURS = dict(zip(PAIRS, panels.LINES))
 """Of each of the four, in every figure."""
 SHOWN = "K = 1/80 1/m, Δx = 2.5·10⁻³ m, h = 2.5·10⁻⁸ s, e = 1.25, ρ∞ = 0.8"
 TIMES = (2.5e-5, 1e-4, 1.75e-4, 2.5e-4)
@@ -50,17 +34,17 @@ def four() -> list[Outcome]:
     return [run(contact, mass) for mass, contact in PAIRS]
 
 
-def compare(sheet: Sheet, *panels: Panel) -> None:
+def compare(sheet: Sheet, *shown: panels.Panel) -> None:
     """Panels of the four and of the references in a row, one legend, their numbers beside them."""
     own = four()
     outcomes = own + reference_runs(FLAT, 0.1)
-    count, width = len(panels), style.PAGE if len(panels) > 1 else 4.6
+    count, width = len(shown), style.PAGE if len(shown) > 1 else 4.6
     with sheet.figure(1, count, width=width, height=3.0, legend=2 + count, legend_size=7.0) as (_, axes):
-        for axis, panel in zip(np.ravel(axes), panels):
+        for axis, panel in zip(np.ravel(axes), shown):
             panel(sheet, axis, outcomes)
-            numbers_of(sheet, outcomes, *NUMBERS.get(panel, ()))
-    if banded in panels:
-        scatters_of(sheet, own)
+            drawing.numbers_of(sheet, outcomes, *drawing.NUMBERS.get(panel, ()))
+    if panels.banded in shown:
+        drawing.scatters_of(sheet, own)
 
 
 def evolution(sheet: Sheet, contact: str) -> None:
@@ -71,7 +55,7 @@ def evolution(sheet: Sheet, contact: str) -> None:
         for axis, mass in zip(axes, MASSES):
             found = run(contact, mass)
             exact = found.exact
-            beam_at_times(sheet, axis, found.history, TIMES, 1.1, lambda t: f"t = {readable(t, 3)} s")
+            drawing.beam_at_times(sheet, axis, found.history, TIMES, 1.1, lambda t: f"t = {readable(t, 3)} s")
             for t, colour in zip(TIMES, style.SEQUENCE):
                 axis.plot(float(exact.front(t)), 0.0, marker="^", ms=5, color=colour, clip_on=False, zorder=5)
             flat = -1e3 * exact.gap(places, last)
@@ -114,20 +98,20 @@ items(__name__, compare, (
     ("fig-3.25", "Nodes and middles: contact length",
      f"Contact length until τ = 0.1 (a), and less theory's (b), nodes and middles with both masses; {SHOWN}. As the "
      "thesis says, no significant difference.",
-     contact_length, length_off),
+     panels.contact_length, panels.length_off),
     ("fig-3.26", "Nodes and middles: reaction",
      f"Reaction of one side until τ = 0.1, nodes and middles with both masses; {SHOWN}: (a) means in windows, the band "
      "holding eight tenths of the reaction of every step, filtered as in 3.3.1, peaks cut; (b) the impulse less "
      "theory's, unfiltered. The thesis finds the general behaviour of 1/√t with both. In impulse lumped nodes are "
      "nearest to theory and lumped middles furthest from it.",
-     banded, impulse_off),
+     panels.banded, panels.impulse_off),
     ("fig-3.27", "Nodes and middles: energy",
      "Energy of the beam until τ = 0.1, less its 10 000 J before the contact, which is drawn too, nodes and middles "
      f"with both masses; {SHOWN}. With lumped masses the node method loses more than the middle method, as the thesis "
      "says; with the consistent matrix they lose about the same. The thesis takes the loss for the kinetic energy of "
      "the beam that comes to rest. In theory none is lost, all of it runs ahead as waves; Hermite's own mesh (circles) "
      "does not resolve so thin a front either and loses as much, Self-similar (diamonds) resolves it and loses none.",
-     energy),
+     panels.energy),
 ))  # fmt: skip
 
 
@@ -141,8 +125,8 @@ def strains(sheet: Sheet) -> None:
     """
     found = four()
     with sheet.figure(1, 2, height=2.8, legend=3, legend_size=7.0) as (_, axes):
-        strain(sheet, axes[0], found, theory=None)
-        strain(sheet, axes[1], found)
+        panels.strain(sheet, axes[0], found, theory=None)
+        panels.strain(sheet, axes[1], found)
         axes[1].set(yscale="log", ylim=(0.1, 400.0))
     sheet.numbers |= {f"J at t = 2.5·10⁻⁴ s, {o.label}": float(o.strain[-1]) for o in found}
     sheet.numbers["J at t = 2.5·10⁻⁴ s, theory"] = float(found[0].exact.strain_energy(found[0].time[-1]))
@@ -158,13 +142,13 @@ def reaction_in_space_and_time(sheet: Sheet) -> None:
     steps of the front, not from behind it.
     """
     shown = {f"contact at {contact}s, {mass} mass": run(contact, mass).history for mass, contact in PAIRS}
-    cells = draw_maps(sheet, shown, 2, 5.0)
+    cells = drawing.draw_maps(sheet, shown, 2, 5.0)
     exact = Exact(next(iter(shown.values())).impact)
     for name, found in zip(shown, cells):
         sheet.numbers[f"impulse inside nine tenths of the zone (%), {name}"] = 100.0 * share_inside(found, exact)
 
 
-def share_inside(cells: CellForces, exact: Exact) -> float:
+def share_inside(cells: drawing.CellForces, exact: Exact) -> float:
     """Impulse in cells inside nine tenths of the contact zone, over all of it."""
     middle = 0.5 * (cells.places[1:] + cells.places[:-1])
     impulse = cells.force * np.diff(cells.times)[:, None]

@@ -11,12 +11,7 @@ from matplotlib.axes import Axes
 
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
-from bent_beam_programs.thesis.gallery.drawing import (
-    beam_at_times,
-    draw_maps,
-    numbers_of,
-    plain_line,
-)
+from bent_beam_programs.thesis.gallery.drawing import beam_at_times, draw_maps, numbers_of, plain_line
 from bent_beam_programs.thesis.gallery.runs import stepped
 from bent_beam_programs.thesis.sheet import Sheet, item
 from bent_beam_programs.thesis.studies import first_order_case as study

@@ -7,19 +7,8 @@ from dataclasses import replace
 import numpy as np
 
 from bent_beam.meshes import GradedMesh, Mesh, SquareMesh
-from bent_beam_programs.thesis.gallery.drawing import (
-    BAND,
-    FILTER,
-    LEGEND,
-    NOISY,
-    REACTION,
-    filtered_scatter,
-    guide,
-    named,
-    numbers_of,
-    plain_line,
-    run_figure,
-)
+from bent_beam_programs.thesis.gallery import drawing
+from bent_beam_programs.thesis.gallery.drawing import BAND, FILTER, LEGEND
 from bent_beam_programs.thesis.gallery.runs import Series, case, thesis
 from bent_beam_programs.thesis.sheet import Sheet, item, items
 from bent_beam_programs.thesis.studies.exact import Exact
@@ -56,7 +45,7 @@ OURS_TOO = (
 )
 BASE = 2.5e-8  # s, the thesis's choice
 BASE_STEP = f"h = {readable(BASE)} s"
-items(__name__, run_figure, (
+items(__name__, drawing.run_figure, (
     ("fig-3.7", "Time step: geometry",
      f"Impact zone for several time steps, and differences from {BASE_STEP}; {COARSE_CASE}. The thesis finds a "
      "detachment of the order of 2·10⁻⁴ m whatever h.",
@@ -72,7 +61,7 @@ items(__name__, run_figure, (
      "that 2.5·10⁻⁸ and 10⁻⁸ s catch 1/√t, and 10⁻⁸ s scatters most here. Reproduced: 10⁻⁶ and 10⁻⁷ s miss 1/√t at the "
      "start. Its filter smooths over a number of steps, so that it decides what is seen (extra-filter). The impulse "
      "differs little below 10⁻⁶ s: no step is better.",
-     STEPS, REACTION),
+     STEPS, drawing.REACTION),
     ("fig-3.17", "Spectral radius: geometry",
      f"Geometry at τ = 0.01 for several spectral radii, and differences from ρ∞ = 0.8; {DAMPED_CASE}. The values of "
      "the thesis's legend are not in its text; it sees no major change.",
@@ -87,7 +76,7 @@ items(__name__, run_figure, (
      RESTITUTIONS, (geometry,)),
     ("fig-3.20", "Restitution: reaction",
      f"Reaction of one side until τ = 0.1 for restitution 0 and 1: {BAND}; {DAMPED_CASE}.",
-     RESTITUTIONS, NOISY),
+     RESTITUTIONS, drawing.NOISY),
     ("fig-3.21", "Restitution: energy",
      f"Energy of the beam until τ = 0.1 for restitution 0 and 1, and in free flight before; {DAMPED_CASE}. The thesis "
      f"takes the loss with 0 for physics. {OURS_TOO}",
@@ -115,7 +104,7 @@ def filter_decides(sheet: Sheet) -> None:
             filtered(sheet, axis, shown)
         axes[2].set(xscale="log", xlabel="$h$  (s)", ylabel="scatter over theory  (1)")
         for name, shown, colour in (("per step", outcomes, "vermilion"), ("in seconds", same, "blue")):
-            off, line = [filtered_scatter(o) for o in shown], plain_line(colour, marker="o", ms=4)
+            off, line = [drawing.filtered_scatter(o) for o in shown], drawing.plain_line(colour, marker="o", ms=4)
             sheet.line(axes[2], h, np.array(off, float), series=f"filter {name}", **line)
             sheet.numbers |= {f"scatter, filter {name}, {o.label}": v for o, v in zip(shown, off)}
         axes[2].legend(fontsize=7)
@@ -163,7 +152,7 @@ def square_zone() -> SquareMesh:
 SQUARE = square_zone()
 ZONES = Series(FLAT, 0.01, {"uniform zone": {}, '"square" zone': {"mesh": SQUARE}})
 SQUARE_CASE = f"K = 1/80 1/m (κ/ν = 6.25·10⁻⁴), τ = 0.01, h = 2.5·10⁻⁸ s, e = 1.25, a = 5; {LEGEND}"
-items(__name__, run_figure, (
+items(__name__, drawing.run_figure, (
     ("fig-3.10", "Element length: geometry",
      f"Impact zone for several element lengths; {COARSE_CASE}. As the thesis says, its element lengths do not remove"
      " the lift.",
@@ -174,14 +163,14 @@ items(__name__, run_figure, (
     ("fig-3.12", "Element length: reaction",
      f"Reaction of one side for several element lengths: {FILTER}; {COARSE_CASE}. The thesis finds Δx = 5 mm too high "
      "and misses 1/√t at the beginning with 1.5 mm.",
-     LENGTHS, REACTION),
+     LENGTHS, drawing.REACTION),
     ("fig-3.14", "Square mesh: geometry",
      f"Geometry at τ = 0.01 on both meshes; {SQUARE_CASE}. The first constraint of the square mesh is at the middle of "
      "its first element and does not stop the central node: the thesis has it some 1.8·10⁻⁴ m inside the wall.",
      ZONES, (geometry,)),
     ("fig-3.16", "Square mesh: reaction",
      f"Reaction of one side until τ = 0.01 on both meshes: {FILTER}; {SQUARE_CASE}. Neither mesh resolves the front.",
-     ZONES, REACTION),
+     ZONES, drawing.REACTION),
 ))  # fmt: skip
 
 
@@ -251,7 +240,7 @@ def square_nodes(sheet: Sheet) -> None:
     """
     curvature, laid = case(FLAT, 0.01).impact.curvature, SQUARE.nodes(25.0)
     shown = laid[laid <= 1.6 * SQUARE.zone]
-    line = plain_line("blue", width=0.5, marker="o", ms=2.5)
+    line = drawing.plain_line("blue", width=0.5, marker="o", ms=2.5)
     with sheet.figure(1, 2, height=2.5) as (_, axes):
         axes[0].set(xlabel="$x$  (m)", ylabel="$y$  (mm)")
         axes[1].set(xlabel="$x$  (m)", ylabel=r"$\Delta x$  (mm)")
@@ -259,7 +248,7 @@ def square_nodes(sheet: Sheet) -> None:
         sheet.line(axes[1], shown[:-1], 1e3 * np.diff(shown), series="element length", **line)
         axes[0].invert_yaxis()  # the wall is below
         for axis in axes:
-            guide(axis, x=SQUARE.zone)
+            drawing.guide(axis, x=SQUARE.zone)
     sheet.numbers |= {"first element (mm)": 1e3 * laid[1], "shortest element (mm)": 1e3 * float(np.diff(laid).min())}
 
 
@@ -279,7 +268,7 @@ def square_length(sheet: Sheet) -> None:
             for axis in column:
                 contact_length(sheet, axis, found)
             column[1].set(xlim=(0.6e6 * end, 1e6 * end), ylim=(0.97e3 * low, 1.03e3 * high))
-            numbers_of(sheet, named(found, mass, mass != "lumped"), "contact_length_error")
+            drawing.numbers_of(sheet, drawing.named(found, mass, mass != "lumped"), "contact_length_error")
             rest = "longest rest of λ_c in the last two fifths (µs)"
             sheet.numbers |= {f"{rest}, {o.label}, {mass}": 1e6 * longest_rest(o) for o in found[:2]}
 
