@@ -1,7 +1,7 @@
 """Converged coefficients of restitution of the whole impacts that are shipped as problems.
 
-    python -m bent_beam_programs.open_benchmark.bounce_reference [--problem ID …]   three minutes
-    python -m bent_beam_programs.open_benchmark.bounce_reference --confirm          measure coarsely, compare, keep
+    python -m bent_beam_programs.open_benchmark.bounce_reference             three minutes
+    python -m bent_beam_programs.open_benchmark.bounce_reference --confirm   measure coarsely, compare, keep
 
 The mesh is three times finer than that of ``bentbeam bounce``. The error bar holds what half as many
 elements and steps and another contact law change (docs/whole_impact.md).
@@ -31,26 +31,24 @@ def agrees(name: str, elements: int = SAMPLE) -> bool:
 
 def _main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--problem", action="append", default=[], help="measure this one and keep the others")
     parser.add_argument("--confirm", action="store_true", help="keep all numbers if coarse runs agree with them")
-    asked = parser.parse_args()
-    names = asked.problem or [name for name in shipped_ids() if name.startswith("bounce-")]
-    if asked.confirm:
+    names = sorted(name for name in shipped_ids() if name.startswith("bounce-"))
+    if parser.parse_args().confirm:
         if not all([agrees(name) for name in names]):
             parser.exit(1, "the stored references are stale: measure them anew\n")
         confirm(BOUNCES)
         return
-    kept = dict(stored(BOUNCES)["problems"]) if BOUNCES.exists() else {}
+    found = {}
     for name in names:
-        kept[name] = whole_impact(problem(name), ELEMENTS)
-        print(name, kept[name]["restitution"], flush=True)
+        found[name] = whole_impact(problem(name), ELEMENTS)
+        print(name, found[name]["restitution"], flush=True)
     write(
         BOUNCES,
         "whole impacts of a free-free bent beam, units L/2 = EI = mu = V0 = 1: number -> [value, error bar]",
         "python -m bent_beam_programs.open_benchmark.bounce_reference",
         PACKAGES,
         {"path": HermiteFE.path, "elements": ELEMENTS},
-        {"problems": dict(sorted(kept.items()))},
+        {"problems": found},
     )
 
 

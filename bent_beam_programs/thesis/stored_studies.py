@@ -2,15 +2,13 @@
 
 ``python -m bent_beam_programs.thesis.stored_studies`` writes ``studies.json`` in ``bent_beam_programs/stored_studies``,
 {"studies": [{"name", "title", "case", "columns", "rows", "conclusion", "says", "failed", "reason", "date"}]}, and
-``NAME.png`` beside it. With names it runs those studies alone and keeps the others. ``--confirm`` runs the named
-studies (default: the first) and, where their numbers are the stored ones, gives the file today's digest
-(:mod:`bent_beam.stored`).
+``NAME.png`` beside it. ``--confirm`` runs the first study alone and, where its numbers are the stored ones, gives the
+file today's digest (:mod:`bent_beam.stored`).
 """
 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
 from io import BytesIO
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -121,32 +119,19 @@ def words_of(name: str) -> dict[str, str]:
     return {"title": study.title, "case": case.title, "conclusion": study.conclusion, "says": SAYS.get(name, "")}
 
 
-def notes_of(names: Sequence[str], folder: Path, jobs: int) -> dict[str, dict[str, Any]]:
-    """Name → note of each study. Raises ``ValueError`` for an unknown name."""
-    if unknown := sorted(set(names) - set(STUDIES)):
-        raise ValueError(f"no study is called {', '.join(unknown)}; there are {', '.join(STUDIES)}")
-    folder.mkdir(parents=True, exist_ok=True)
-    calls = [(name, folder) for name in names]
+def store_studies(*, file: Path = FILE, jobs: int = 1) -> Path:
+    """Run the studies, ``jobs`` at the same time, and store them."""
+    file.parent.mkdir(parents=True, exist_ok=True)
+    names = list(STUDIES)
+    calls = [(name, file.parent) for name in names]
     notes = run_all(note_of, calls, jobs=jobs, on_death=lambda i, why: lost(names[i], why))
-    return dict(zip(names, notes))
-
-
-def store_studies(names: Sequence[str] = (), *, file: Path = FILE, jobs: int = 1) -> Path:
-    """Run the studies (default: all) and store them; studies that are not named stay as they are stored.
-
-    Raises ``ValueError`` for an unknown name, and where stored studies would be kept that other code or settings made.
-    """
-    kept = {note["name"]: note for note in stored.read(file)["studies"]} if names and file.exists() else {}
-    if set(kept) - set(names) and stored.is_stale(file):
-        raise ValueError(f"{file.name}: other code or settings made the studies that would be kept; run all of them")
-    found = kept | notes_of(names or list(STUDIES), file.parent, jobs)
-    data = {"studies": [found[name] for name in STUDIES if name in found]}
     made_by = "python -m bent_beam_programs.thesis.stored_studies"
+    data = {"studies": notes}
     return stored.write(file, "parameter studies of the thesis", made_by, PACKAGES, {"cases": CASES}, data)
 
 
-def confirm_studies(names: Sequence[str] = (), *, file: Path = FILE, jobs: int = 1) -> None:
-    """Run a sample of the stored studies again and give the file today's digest and words.
+def confirm_studies(*, file: Path = FILE) -> None:
+    """Run the first of the stored studies again and give the file today's digest and words.
 
     Raises ``ValueError`` where other studies are stored than there are, or naming the first number that differs by more
     than 2 % (and 0.02 of a per cent).
@@ -154,28 +139,27 @@ def confirm_studies(names: Sequence[str] = (), *, file: Path = FILE, jobs: int =
     before = {note["name"]: note for note in stored.read(file)["studies"]}
     if others := sorted(before.keys() ^ STUDIES.keys()):
         raise ValueError(f"{file.name}: stored and no study, or a study and not stored: {', '.join(others)}; run them")
+    name = next(iter(STUDIES))
     with TemporaryDirectory() as work:
-        sample = notes_of(names or list(STUDIES)[:1], Path(work), jobs)
-    for name, note in sample.items():
-        pairs = {row["label"]: row for row in before.get(name, {"rows": []})["rows"]}
-        if pairs.keys() != {row["label"] for row in note["rows"]}:
-            raise ValueError(f"{name}: the stored rows are others ({note['reason'] or 'run it again'})")
-        for row in note["rows"]:
-            for key in COMPARED:
-                old, new = pairs[row["label"]].get(key), row.get(key)
-                if (old is None) != (new is None) or (old is not None and abs(new - old) > WITHIN * (1.0 + abs(old))):
-                    raise ValueError(f"{name}, {row['label']}: {key} is {new}, stored {old}; run the study again")
+        note = note_of(name, Path(work))
+    pairs = {row["label"]: row for row in before[name]["rows"]}
+    if pairs.keys() != {row["label"] for row in note["rows"]}:
+        raise ValueError(f"{name}: the stored rows are others ({note['reason'] or 'run it again'})")
+    for row in note["rows"]:
+        for key in COMPARED:
+            old, new = pairs[row["label"]].get(key), row.get(key)
+            if (old is None) != (new is None) or (old is not None and abs(new - old) > WITHIN * (1.0 + abs(old))):
+                raise ValueError(f"{name}, {row['label']}: {key} is {new}, stored {old}; run the study again")
     stored.confirm(file, studies=[note | words_of(note["name"]) for note in before.values()])
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("names", nargs="*", metavar="NAME", help="studies (default: all; to confirm: the first)")
     parser.add_argument("--jobs", type=int, default=1, help="studies at the same time")
     parser.add_argument("--confirm", action="store_true", help="run a sample again and renew the digest")
     given = parser.parse_args()
     try:
-        (confirm_studies if given.confirm else store_studies)(given.names, jobs=given.jobs)
+        confirm_studies() if given.confirm else store_studies(jobs=given.jobs)
     except ValueError as error:
         parser.error(str(error))
 
