@@ -38,14 +38,7 @@ from bent_beam_programs.open_benchmark.score import resolution_ignored, score
 
 #: Default problems of ``bentbeam benchmark``: 0.5 ranks codes, 0.1 is the stress test of the first
 #: instants, then one point, and the three regimes of loads (pressed on, lifted off, under tension).
-STANDARD = (
-    "leading-0.5",
-    "leading-0.1",
-    "point-2",
-    "first-0.5-1-1-1",
-    "first-0.5--1--1-0",
-    "first-0.5--0.5-0-0-1",
-)
+STANDARD = ("leading-0.5", "leading-0.1", "point-2", "first-0.5-1-1-1", "first-0.5--1--1-0", "first-0.5--0.5-0-0-1")
 NO_HISTORIES = "no nodal histories or no gaps"
 AGAIN = ("not_installed", "invalid", "crashed")  # what may be the machine's fault, as a full disk, is asked anew
 

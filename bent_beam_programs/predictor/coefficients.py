@@ -74,12 +74,8 @@ def _quadratic(kappa: float, sign: float) -> dict[str, float]:
     like = max(kappa, FLATTEST)
     loads = {"alpha": (sign, 0.0), "axial": (0.0, sign), "both": (sign, sign)}
     found = {name: second_order(contact_parameters(like, alpha, axial=n)) for name, (alpha, n) in loads.items()}
-    here, there, flatter, factors = (
-        contact_parameters(kappa),
-        contact_parameters(like),
-        kappa / like,
-        dict[str, float](),
-    )
+    here, there = contact_parameters(kappa), contact_parameters(like)
+    flatter, factors = kappa / like, dict[str, float]()
     for order, grown in (("lambda2", here.lambda0 / there.lambda0), ("r2", here.r0 / there.r0)):
         alpha, axial, both = (float(getattr(found[name], order)) * float(grown) for name in ("alpha", "axial", "both"))
         factors |= {f"{order}_alpha": alpha, f"{order}_axial": axial * flatter**2}

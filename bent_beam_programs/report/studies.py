@@ -17,13 +17,9 @@ LEFT_OUT = ("strain", "nodes", "steps", "seconds")  # of the tables: what says n
 
 
 def stored_studies(file: Path = STUDIES) -> list[dict[str, Any]]:
-    """The stored studies in their order; none where there is no file.
-
-    Each as it is stored, with its table as text (``headings``, ``cells``), the ``reason`` why it was left out, if it
-    was, ``stale``: code has changed since, and the file of its ``picture``.
+    """The stored studies in their order, each as it is stored, with its table as text (``headings``, ``cells``), the
+    ``reason`` why it was left out, if it was, ``stale``: code has changed since, and the file of its ``picture``.
     """
-    if not file.exists():
-        return []
     stale = stored.is_stale(file)
     found = []
     for study in stored.read(file)["studies"]:
@@ -39,19 +35,17 @@ def stored_studies(file: Path = STUDIES) -> list[dict[str, Any]]:
     return found
 
 
-def stored_numbers(file: Path = NUMBERS) -> dict[str, Any] | None:
-    """The stored table of printed numbers; ``None`` where there is no file.
+def stored_numbers() -> dict[str, Any]:
+    """The stored table of printed numbers.
 
     summary : the count in words, both ways; classes : class → its rows (where, what, printed, ours, ratio, class, with
     (3.1.8), why); figures : id, title and picture of each; date; stale.
     """
-    if not file.exists():
-        return None
-    found = stored.read(file)
+    found = stored.read(NUMBERS)
     return {
         "summary": found["summary"],
         "classes": {name: [row for row in found["rows"] if row[CLASS] == name] for name in found["classes"]},
-        "figures": [(f["id"], f["title"], file.with_name(f"{f['id']}.png")) for f in found["figures"]],
+        "figures": [(f["id"], f["title"], NUMBERS.with_name(f"{f['id']}.png")) for f in found["figures"]],
         "date": found["date"],
-        "stale": stored.is_stale(file),
+        "stale": stored.is_stale(NUMBERS),
     }

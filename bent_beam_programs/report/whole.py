@@ -6,11 +6,9 @@ of ``bentbeam predict``, to the digit.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any
 
 from bent_beam.cases import EXAMPLES, load_case
-from bent_beam.errors import InputError
 from comparison.predicting import predict_case
 from comparison.readable import number_from
 from comparison.store import RunStore
@@ -33,16 +31,13 @@ WHOLE = {
 }
 
 
-def pipe_prediction(file: Path = PIPE, store: RunStore | None = None) -> dict[str, Any] | None:
-    """The prediction of a case, or ``None`` where this installation has no such file.
+def pipe_prediction(store: RunStore | None = None) -> dict[str, Any]:
+    """The prediction of the pipe.
 
     case; rows : time (ms), by what, and a text for each of :data:`COLUMNS`; validity : of the theory, in words; whole :
     texts of the whole impact as the case states it; damping : (ratio in %, largest stress in MPa); yield_stress, MPa.
     """
-    try:
-        case = load_case(file)
-    except InputError:
-        return None
+    case = load_case(PIPE)
     document = predict_case(case, TIMES, store=store).to_dict()
     rows = [
         (f"{1000.0 * row['time']:g}", by, [text(numbers.get(name), unit) for name, (_, unit) in COLUMNS.items()])

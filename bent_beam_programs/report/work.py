@@ -82,11 +82,10 @@ def stored_measurements() -> list[dict[str, Any]]:
     found = []
     for measurement in MEASUREMENTS:
         file = STORED / f"{measurement.name}.json"
-        if file.exists():
-            document = stored.read(file)
-            lost = {row["label"]: row["reason"] for row in document["rows"] if row["reason"]}
-            shown = {"title": measurement.title, "lost": list(lost.items()), "picture": file.with_suffix(".png")}
-            found.append(document | shown | {"stale": stored.is_stale(file)})
+        document = stored.read(file)
+        lost = {row["label"]: row["reason"] for row in document["rows"] if row["reason"]}
+        shown = {"title": measurement.title, "lost": list(lost.items()), "picture": file.with_suffix(".png")}
+        found.append(document | shown | {"stale": stored.is_stale(file)})
     return found
 
 

@@ -194,11 +194,10 @@ def restitution_variants(case: Case) -> list[Variant]:
     return varied(case, thesis_settings(case.impact, case.end_time), runs)
 
 
-def restitution_vary(on: MethodOnCase) -> list[Setting]:
-    return on.over("contact", "restitution", "restitution {:g}", COEFFICIENTS)
-
-
-RESTITUTION = Study("restitution", "restitution", restitution_variants, restitution_vary)
+RESTITUTION = Study(
+    "restitution", "restitution", restitution_variants,
+    lambda on: on.over("contact", "restitution", "restitution {:g}", COEFFICIENTS),
+)  # fmt: skip
 
 
 # Numerical damping (thesis 3.3.3, Figs 3.17, 3.18): the spectral radius ρ∞, and bending viscosity at grid scale.

@@ -131,8 +131,7 @@ def friction_variants(case: Case) -> list[Variant]:
     return found
 
 
-def friction_vary(on: MethodOnCase) -> list[Setting]:
-    return on.over("contact", "friction", "friction {:g}", COEFFICIENTS)
-
-
-FRICTION = Study("friction", "contact", friction_variants, friction_vary)
+FRICTION = Study(
+    "friction", "contact", friction_variants,
+    lambda on: on.over("contact", "friction", "friction {:g}", COEFFICIENTS),
+)  # fmt: skip
