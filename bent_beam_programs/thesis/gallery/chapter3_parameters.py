@@ -210,22 +210,6 @@ def counts(sheet: Sheet) -> None:
     sheet.table(["e", "thesis", "ours", "largest element (m)"], rows, width=style.COLUMN + 0.8)
 
 
-@item("extra-counts")
-def zone_counts(sheet: Sheet) -> None:
-    """Element counts of 3.3.2
-
-    Elements of the whole beam, L = 50 m, e = 1.25, as the thesis gives them and as its rules give them here. The
-    uniform zone is twice as long as the contact zone at the end, the square one as long: with the first the counts of
-    Table 3.2 come out too.
-    """
-    rows = [
-        ["κ/ν = 6.25·10⁻⁴, τ = 0.1, uniform zone", 1496, count_of(FLAT, 0.1)],
-        ["κ/ν = 0.5, τ = 0.1, uniform zone", 96, count_of(10.0, 0.1)],
-        ['κ/ν = 0.5, τ = 0.1, "square" zone', 4210, count_of(10.0, 0.1, square=True)],
-    ]
-    sheet.table(["mesh", "thesis", "ours"], rows, width=style.COLUMN + 1.0)
-
-
 def square_middle(mass: str) -> float:
     """Depth of the central node of the square mesh inside the wall at the end, m."""
     return -float(thesis("", FLAT, 0.01, mesh=SQUARE, mass=MASSES[mass]).gap[0])
