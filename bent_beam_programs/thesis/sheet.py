@@ -212,9 +212,7 @@ def _draw_with(draw: Callable[..., None], given: Sequence[Any], sheet: Sheet) ->
 
 
 def order(name: str) -> tuple[int, int, int, str]:
-    """Place of an id in the thesis: chapters, then the appendix, tables after the figures of their section, the
-    animation last.
-    """
+    """Place of an id in the thesis: chapters, then the appendix, tables after the figures of a chapter, others last."""
     found = re.fullmatch(r"(fig|table)-(\d+|A)\.(\d+)([a-z]?)", name)
     if found is None:
         return (99, 0, 0, name)

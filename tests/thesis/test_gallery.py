@@ -1,10 +1,9 @@
-"""The gallery: every number of the thesis is there, known points of the curves are in the CSV files; the animation."""
+"""The gallery: every number of the thesis is there, known points of the curves are in the CSV files."""
 
 import csv
 import dataclasses
 import functools
 import io
-import json
 from pathlib import Path
 from typing import Any
 
@@ -12,10 +11,8 @@ import numpy as np
 import pytest
 from here import ROOT
 
-from bent_beam import Impact, ImpactHistory
 from bent_beam_programs.thesis import gallery
 from bent_beam_programs.thesis.gallery import ITEMS, draw_all, listing
-from bent_beam_programs.thesis.gallery.animation import impact_frames
 from bent_beam_programs.thesis.gallery.drawing import REACTION, run_figure
 from bent_beam_programs.thesis.gallery.runs import Series
 from bent_beam_programs.thesis.sheet import Sheet, order
@@ -65,7 +62,7 @@ def follows(found: Any, exact: Any, begin: float, end: float = np.inf, within: f
 def test_every_figure_and_table_is_listed_in_the_order_of_the_thesis_and_in_the_guide() -> None:
     printed = {f"{chapter}.{n}" for chapter, last in LAST.items() for n in range(1, last + 1)} - {*PAIRS}
     printed |= {f"{pair}{letter}" for pair in PAIRS for letter in "ab"}
-    assert printed | {"table-numbers", "animation", *(f"extra-{name}" for name in OTHERS.split())} == set(ITEMS)
+    assert printed | {"table-numbers", *(f"extra-{name}" for name in OTHERS.split())} == set(ITEMS)
     assert [e["id"] for e in listing()] == sorted(ITEMS, key=order)
     guide = (DOCS / "gallery.md").read_text()
     for entry in listing():
@@ -249,16 +246,3 @@ def test_matched_runs_discrete_contact_and_the_infinite_beam_follow_theory() -> 
         fit = number("fig-3.34", f"{name}, Self-similar, infinite beam, first 5 %")
         assert fit == pytest.approx(number("fig-3.34", f"{name}, theory"), rel=0.05)
     follows(curve("fig-3.34", "Self-similar, infinite beam", "c"), curve("fig-3.34", "theory", "c"), 0.3, 1.2)
-
-
-def test_the_beam_without_the_wall_is_drawn_over_a_curved_wall_too() -> None:
-    """A wall bent like the beam and a beam bent more, by as much, are the same impact."""
-    flat = SelfSimilarFE().simulate(Impact.dimensionless(0.5, length=20.0), end_time=0.1, save=20)
-    dataset = flat.dataset.copy()
-    bent = flat.impact.replace(curvature=0.8, wall_curvature=0.3)
-    dataset.attrs["impact"] = json.dumps(dataclasses.asdict(bent))
-    for over_flat, over_curved in zip(impact_frames(flat, 4), impact_frames(ImpactHistory.of(dataset), 4), strict=True):
-        far = np.abs(over_flat.x) > 0.9 * over_flat.x.max()
-        assert np.allclose(over_curved.free, over_flat.free, rtol=0.0, atol=1e-12)
-        assert np.allclose(over_curved.y, over_flat.y, rtol=0.0, atol=1e-12)
-        assert np.all(over_flat.free[far] < 0.0)
