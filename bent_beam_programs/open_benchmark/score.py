@@ -168,16 +168,13 @@ def _judged(found: Score, result: Result) -> Score:
 def _of_numbers(found: Score) -> list[Symptom]:
     """Numbers that are off, and those whose error or bar is beyond the limit."""
     shown = []
-    for name in (*found.off, *found.unsure):
+    for name, kind in [*((name, "error") for name in found.off), *((name, "bar") for name in found.unsure)]:
         number, about = found.measured[name], found.reference.get(name)
         limit = FIRST_ORDER if name in LOADED else PART
-        size = number.relative(1.0 if name in LOADED else 0.0)
+        size = number.relative(1.0 if name in LOADED else 0.0) if kind == "error" else found.bar(name)
         exact = "" if number.theory is None else f", {'reference' if about else 'exact'} {number.theory:.6g}"
         bar = f" ± {about['error']:.1g}" if about else ""
-        if name in found.off:
-            shown.append(Symptom(f"error_{name}", size, limit, f"{number}{exact}{bar}", f"error of {name}"))
-        else:
-            shown.append(Symptom(f"bar_{name}", found.bar(name), limit, f"{number}{exact}{bar}", f"bar of {name}"))
+        shown.append(Symptom(f"{kind}_{name}", size, limit, f"{number}{exact}{bar}", f"{kind} of {name}"))
     return shown
 
 
