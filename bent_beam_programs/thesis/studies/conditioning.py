@@ -28,6 +28,7 @@ from comparison.figures import style
 from comparison.readable import readable
 from hermite_fe.beam import HermiteBeam
 from hermite_fe.contacts import NodeContact
+from hermite_fe.integrators.generalized_alpha import scheme_of
 
 FACTORS = (4.0, 2.0, 1.0, 0.4, 0.2, 0.1, 0.04)
 UNCAPPED = 1e9
@@ -82,11 +83,8 @@ def conditions(variant: Variant, outcome: Outcome) -> dict[str, float | None]:
     method: Any = variant.method
     nodes = method.mesh.nodes(impact.half_length)
     beam = HermiteBeam(nodes, impact.bending_stiffness, impact.mass_per_length)
-    radius = settings.spectral_radius
-    shift = (2.0 - radius) / (radius + 1.0)  # 1 − α_m (3.3.13)
-    keep = 1.0 / (radius + 1.0)  # 1 − α_f (3.3.14)
-    beta = 0.25 * (1.0 + radius / (radius + 1.0) - (2.0 * radius - 1.0) / (radius + 1.0)) ** 2  # (3.3.15–16)
-    step = full(settings.mass.matrix(beam)) + settings.time_step**2 * beta * keep / shift * full(beam.stiffness())
+    scheme = scheme_of(settings.spectral_radius)
+    step = full(settings.mass.matrix(beam)) + settings.time_step**2 * scheme.beta * scheme.s * full(beam.stiffness())
     zone = int(np.searchsorted(nodes, settings.zone))
     rows = NodeContact().rows(beam, np.zeros(beam.dofs), full=False)
     G = csc_array((rows.factors[:zone, 0], (np.arange(zone), rows.dofs[:zone, 0])), shape=(zone, beam.dofs))
