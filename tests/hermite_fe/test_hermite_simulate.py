@@ -146,3 +146,10 @@ def test_an_early_impact_beside_the_middle_is_refused_where_even_elements_would_
     assert given.array("total_impulse")[-1] >= 0.0
     with pytest.raises(ValueError, match=r"^domain cuts .* leave it out here \(got 10\.0\)"):
         HermiteFE(domain=10.0).simulate(beside, end_time=0.1)
+
+
+@pytest.mark.parametrize(("kappa", "damping", "elements"), [(0.5, 1e-3, 100), (0.5, 1e-4, 200), (0.2, 1e-3, 200)])
+def test_thin_fronts_and_little_damping_take_twice_the_elements_of_a_beam_that_shears(kappa, damping, elements) -> None:
+    impact = Impact.whole_beam(kappa, relative_damping=damping).replace(shear_stiffness=1e4, rotary_inertia=1e-5)
+    mesh = HermiteFE().for_whole_beam(impact).mesh
+    assert mesh is not None and mesh.nodes(impact.half_length).size == elements + 1

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from scipy.integrate import simpson
 
 from theory import ImpactFields, SelfSimilarWave, contact_parameters, kernel
 
@@ -108,6 +109,18 @@ def test_slope_curvature_and_velocity_are_derivatives_of_the_deflection(ratio, l
     assert at.slope == pytest.approx(first @ along.deflection / h, abs=1e-6)
     assert at.curvature == pytest.approx(first @ along.slope / h, abs=1e-6)
     assert at.velocity == pytest.approx(first @ later / (0.1 * h), abs=1e-6)
+
+
+def test_momentum_equals_impulse_at_first_order() -> None:
+    # ∫η dξ = ∬(R̃ + 2λ_c r̃) dτ dτ; ahead of the front η oscillates and falls like ξ⁻³
+    tau, e = 0.3, 0.1
+    fields = ImpactFields(contact_parameters(0.5, 1.0, 1.0), epsilon=e)
+    p = fields.parameters
+    xi = np.linspace(0.0, 12.0, 201)
+    found = 2.0 * simpson(fields.fast_layer(xi, tau).deflection, x=xi)
+    point = 8.0 / 3.0 * np.sqrt(2.0 / np.pi) * tau**1.5 * (p.r0 + e * p.r1 * tau / 5.0)
+    zone = fields.uniform_reaction * 8.0 * tau**2.5 * (p.lambda0 / 15.0 + e * p.lambda1 * tau / 35.0)
+    assert found == pytest.approx(point + zone, rel=1e-4)
 
 
 def test_fields_are_even_in_the_place_and_slopes_odd() -> None:
