@@ -14,16 +14,11 @@ Signs are judged against round-off: p against the terms of its equation, a gap a
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
 from hermite_fe.banded import FADED, PAD, copy
-from hermite_fe.compiled import compiled, compiled_within
+from hermite_fe.compiled import Array, compiled, compiled_within
 from hermite_fe.constraints import Constraints, Rows, Solver, count_rounds, exchange, update
 
 __all__ = ["CYCLING", "NOT_FINITE", "SINGULAR", "SOLVED", "find_wrong", "solve_constrained", "solve_free"]
-
-Array = NDArray[np.float64]
 
 SOLVED, SINGULAR, CYCLING, NOT_FINITE = range(4)
 

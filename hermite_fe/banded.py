@@ -18,14 +18,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hermite_fe.compiled import compiled, compiled_within
+from hermite_fe.compiled import Array, Flags, Places, compiled, compiled_within
 
 __all__ = ["FADED", "PAD", "combine", "copy", "dot", "factor", "multiply", "product", "row_sums", "stiff_form",
            "stiff_multiply", "stiff_product", "substitute_back", "substitute_forward"]  # fmt: skip
-
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
-Places = NDArray[np.int64]
 
 PAD = 4
 BLOCK = 16  # unknowns after which a solution is checked for having faded

@@ -24,16 +24,14 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.polynomial import Polynomial
-from numpy.typing import NDArray
 
 from bent_beam.checks import positive
 from bent_beam.errors import InputError
 from bent_beam.meshes import checked_nodes
 from hermite_fe.banded import stiff_product
+from hermite_fe.compiled import Array
 
 __all__ = ["HermiteBeam", "element_geometric_stiffness", "element_mass", "element_stiffness", "shape_functions"]
-
-Array = NDArray[np.float64]
 
 REFINEMENTS = 4  # of a static solution
 SHAPES = [Polynomial(c) for c in ([1, 0, -3, 2], [0, 1, -2, 1], [0, 0, 3, -2], [0, 0, -1, 1])]  # of ξ, N₂ and N₄ over l

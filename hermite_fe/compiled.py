@@ -21,11 +21,16 @@ from traceback import walk_tb
 from typing import Any, TypeVar, cast
 
 import numba
+import numpy as np
 from numba.extending import overload, register_jitable
+from numpy.typing import NDArray
 from platformdirs import user_cache_path
 
-__all__ = ["compiled", "compiled_within", "recompiling"]
+__all__ = ["Array", "Flags", "Places", "compiled", "compiled_within", "recompiling"]
 
+Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+Places = NDArray[np.int64]
 Function = TypeVar("Function", bound=Callable[..., Any])
 Result = TypeVar("Result")
 

@@ -14,20 +14,15 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam.errors import InputError
 from hermite_fe.banded import PAD, copy, factor, substitute_back, substitute_forward
-from hermite_fe.compiled import compiled, compiled_within
+from hermite_fe.compiled import Array, Flags, Places, compiled, compiled_within
 from hermite_fe.system import ContactRows, System
 
 __all__ = ["WORST", "Constraints", "ContactLaw", "Rows", "Solver", "ask_for_gaps", "ask_for_rebound", "constraints_of",
            "count_rounds", "exchange", "find_candidates", "note_complementarity", "row_times",
            "rows_of", "rows_times", "set_bounds", "solver_of", "some_gave_way", "update"]  # fmt: skip
-
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
-Places = NDArray[np.int64]
 
 SMALLEST_REACTION, PRODUCT = range(2)
 """Indices in ``worst``: the smallest impulse above what its constraint may pull, and the largest |p·slack|."""

@@ -45,19 +45,17 @@ from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam.errors import InputError
 from bent_beam.fields import Part, Quantity
 from hermite_fe.beam import HermiteBeam
+from hermite_fe.compiled import Array
 from hermite_fe.constraints import ContactLaw
 from hermite_fe.masses import Mass
 from hermite_fe.system import ContactRows
 
 __all__ = ["CONTACTS", "AlternateContact", "Contact", "MeanContact", "MiddleContact", "NodeContact", "element_rows",
            "impact_coupling"]  # fmt: skip
-
-Array = NDArray[np.float64]
 
 COUPLED = 40  # elements; the consistent mass matrix couples over some five: the ends are out of reach
 

@@ -24,14 +24,11 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from hermite_fe.compiled import compiled, compiled_within
+from hermite_fe.compiled import Array, compiled, compiled_within
 
 __all__ = ["FORCE", "FORCE_TIME", "NO_SPRINGS", "PEAKS", "PENETRATION", "PRESSURE", "Springs", "push",
            "stored_energy"]  # fmt: skip
-
-Array = NDArray[np.float64]
 
 FORCE, FORCE_TIME, PENETRATION, PRESSURE = range(4)
 """Indices in ``State.peaks``: the largest force on the whole zone of all steps, N, and its time, s; the largest

@@ -25,16 +25,16 @@ from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam.fields import Part, Quantity
 from bent_beam.impact import Impact
 from hermite_fe.beam import HermiteBeam
+from hermite_fe.compiled import Array
 
 __all__ = ["ENDS", "FAR_FIELDS", "Dampings", "FarField", "GridViscosity", "Sponge"]
 
 ENDS = ("free", "following")
-Dampings = tuple[tuple[str, NDArray[np.float64]], ...]
+Dampings = tuple[tuple[str, Array], ...]
 
 
 @dataclass(frozen=True)

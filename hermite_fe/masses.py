@@ -25,14 +25,12 @@ from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam.fields import Part, Quantity
 from hermite_fe.beam import HermiteBeam
+from hermite_fe.compiled import Array
 
 __all__ = ["MASSES", "ConsistentMass", "LumpedMass", "Mass"]
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -22,16 +22,13 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam import hysteresis
-from hermite_fe.compiled import compiled, compiled_within
+from hermite_fe.compiled import Array, compiled, compiled_within
 from hermite_fe.constraints import Solver
 from hermite_fe.system import Bending, Branches
 
 __all__ = ["add_branch_forces", "branch_energy", "branches_at_rest", "step_branches", "stiffen", "strains_of"]
-
-Array = NDArray[np.float64]
 
 
 def branches_at_rest(matrix: Array, fitted: hysteresis.Branches) -> Branches:

@@ -35,7 +35,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam.errors import InputError
 from bent_beam.hysteresis import branches_of
@@ -44,6 +43,7 @@ from bent_beam.loads import lowest_mode
 from bent_beam.meshes import checked_nodes, mirrored
 from hermite_fe.banded import product, stiff_product
 from hermite_fe.beam import HermiteBeam
+from hermite_fe.compiled import Array, Flags
 from hermite_fe.contacts import Contact
 from hermite_fe.elastic_wall import NO_SPRINGS, Springs
 from hermite_fe.far_fields import Dampings, FarField
@@ -52,8 +52,6 @@ from hermite_fe.maxwell import branches_at_rest
 from hermite_fe.system import Bending, ContactRows, System
 
 __all__ = ["MODELLED", "BeamModel", "beam_model"]
-
-Array = NDArray[np.float64]
 CONSISTENT = ConsistentMass()
 NEAR = 1e-9  # of the length: a node so near an edge of the wall lies on it
 HELD = {"free": 0, "hinged": 1, "clamped": 2}  # dofs of the end node
@@ -77,7 +75,7 @@ class BeamModel:
     velocity: Array
     natural: Array
     facing: Array
-    behind: NDArray[np.bool_]
+    behind: Flags
     full: bool
     axial_force: float
 

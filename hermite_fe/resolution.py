@@ -35,21 +35,19 @@ from dataclasses import dataclass
 from typing import Annotated, Any, Self
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam.errors import InputError
 from bent_beam.fields import Part, Quantity
 from bent_beam.impact import Impact
 from bent_beam.loads import wall_scales
 from bent_beam.meshes import GradedMesh, Mesh, ScaleFreeMesh, snapped
+from hermite_fe.compiled import Array
 from hermite_fe.contacts import Contact, NodeContact
 from hermite_fe.far_fields import FarField, GridViscosity
 from hermite_fe.integrators import Integrator, Midpoint, MoreauJean, SignoriniPosition
 from hermite_fe.masses import ConsistentMass, Mass
 
 __all__ = ["Choice", "Composition", "choose", "front"]
-
-Array = NDArray[np.float64]
 
 THIN = 0.005  # κ/ν below which scale-free elements all the way would be too many
 ZONE = 1.2  # of the front's place at the end: elements are fine up to there

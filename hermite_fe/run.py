@@ -8,13 +8,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam.checks import MOST_INSTANTS, affordable
 from bent_beam.errors import InputError
 from hermite_fe.active_set import CYCLING, NOT_FINITE, SINGULAR, SOLVED
 from hermite_fe.banded import product, stiff_form
-from hermite_fe.compiled import recompiling
+from hermite_fe.compiled import Array, Flags, Places, recompiling
 from hermite_fe.constraints import WORST, ContactLaw
 from hermite_fe.elastic_wall import PEAKS, stored_energy
 from hermite_fe.integrators import Integrator
@@ -24,8 +23,6 @@ from hermite_fe.stepping import ENERGIES, LARGEST, problem_of, state_of
 from hermite_fe.system import System
 
 __all__ = ["Stepper", "Trajectory", "integrate", "saved_steps", "trajectory_of"]
-
-Array = NDArray[np.float64]
 
 UNSTABLE = 10.0  # times the energy that a beam has been given, at the end: what is not resolved may swing in between
 FAILURES = {
@@ -52,7 +49,7 @@ class Trajectory:
     gap: Array
     impulse: Array
     held_impulse: Array
-    closed: NDArray[np.bool_]
+    closed: Flags
     sums: dict[str, Array]
     law: ContactLaw
     steps: int
@@ -197,7 +194,7 @@ def trajectory_of(
     )
 
 
-def saved_steps(instants: Array, save: int | Sequence[float] | Array) -> NDArray[np.int64]:
+def saved_steps(instants: Array, save: int | Sequence[float] | Array) -> Places:
     """Indices of the instants to keep: so many, evenly spaced in √t, or those nearest to given times; the first always.
 
     Raises ``ValueError`` for fewer than two, or times that are not increasing, negative or past the end.

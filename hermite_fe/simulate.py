@@ -15,7 +15,7 @@ from bent_beam.hysteresis import branches_of
 from bent_beam.impact import FIRST_SPREAD, Impact
 from bent_beam.loads import UNSHEARED, unmodelled
 from hermite_fe import resolution
-from hermite_fe.compiled import recompiling
+from hermite_fe.compiled import Array, recompiling
 from hermite_fe.contacts import Contact, NodeContact
 from hermite_fe.elastic_wall import PEAKS
 from hermite_fe.model import MODELLED, BeamModel, beam_model
@@ -56,7 +56,7 @@ def simulate(
     impact: Impact,
     *,
     end_time: float | None = None,
-    save: int | Sequence[float] | NDArray[np.float64] = 200,
+    save: int | Sequence[float] | Array = 200,
     progress: Callable[[float], None] | None = None,
     until: Callable[[BeamModel, Stepper], bool] | None = None,
     **parts: Any,

@@ -6,11 +6,10 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hermite_fe.active_set import NOT_FINITE, SOLVED, solve_free
 from hermite_fe.banded import PAD, combine, dot, multiply, row_sums, stiff_multiply
-from hermite_fe.compiled import compiled, compiled_within
+from hermite_fe.compiled import Array, Flags, Places, compiled, compiled_within
 from hermite_fe.constraints import Constraints, ContactLaw, Rows, Solver, row_times, rows_of, solver_of
 from hermite_fe.elastic_wall import Springs
 from hermite_fe.maxwell import strains_of
@@ -19,10 +18,6 @@ from hermite_fe.system import Bending, Branches, System
 __all__ = ["ENERGIES", "LARGEST", "MATERIAL", "WALL", "Matrices", "Problem", "State", "add_energies", "add_impulses",
            "end_step", "forces_at", "initial_acceleration", "mean_forces", "prepare", "problem_of",
            "state_of"]  # fmt: skip
-
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
-Places = NDArray[np.int64]
 
 WORK, IMPACT, ALGORITHMIC, VISCOUS, MATERIAL, ABSORBED, WALL = range(7)
 """Indices in ``State.energy``, J since the start: the work of the loads, and the losses to impacts, to the scheme's own

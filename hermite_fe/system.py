@@ -15,11 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.errors import InputError
+from hermite_fe.compiled import Array, Places
 from hermite_fe.elastic_wall import NO_SPRINGS, Springs
 
 __all__ = ["DAMPINGS", "Bending", "Branches", "ContactRows", "System"]
-
-Array = NDArray[np.float64]
 
 DAMPINGS = ("viscous", "material", "absorbed")
 """Causes of damping whose losses are recorded apart: viscosity at grid scale, the material, an absorbing layer."""
@@ -31,7 +30,7 @@ def _left_out() -> Array:
     return np.zeros(0)
 
 
-def _left_out_numbers() -> NDArray[np.int64]:
+def _left_out_numbers() -> Places:
     return np.zeros(0, np.int64)
 
 
@@ -46,12 +45,12 @@ class ContactRows:
     tributary : (rows,), the length of beam that a row answers for (penalty contact scales with it).
     """
 
-    dofs: NDArray[np.int64]
+    dofs: Places
     factors: Array
     gap: Array
     places: Array = field(default_factory=_left_out)
-    rank: NDArray[np.int64] = field(default_factory=_left_out_numbers)
-    side: NDArray[np.int64] = field(default_factory=_left_out_numbers)
+    rank: Places = field(default_factory=_left_out_numbers)
+    side: Places = field(default_factory=_left_out_numbers)
     tributary: Array = field(default_factory=_left_out)
 
     def __post_init__(self) -> None:

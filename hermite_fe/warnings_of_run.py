@@ -5,18 +5,16 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam.history import REFLECTED, ImpactHistory
 from bent_beam.impact import FIRST_SPREAD, Impact
+from hermite_fe.compiled import Array
 from hermite_fe.far_fields import FarField
 from hermite_fe.integrators import Integrator
 from hermite_fe.model import BeamModel
 from hermite_fe.resolution import Choice, front
 
 __all__ = ["lift_warnings", "rounds_warnings", "warnings_of_run"]
-
-Array = NDArray[np.float64]
 
 ELEMENTS_PER_FRONT = 2.0  # fewer in ℓ deserve a warning
 MOST_ROUNDS = 100  # of the active set in one step; sound runs take ten or so

@@ -32,12 +32,11 @@ from bent_beam.errors import SimulationError
 from bent_beam.fields import describe
 from bent_beam.history import ImpactHistory, end_curvatures
 from bent_beam.impact import Impact
-from self_similar_fe.mesh import ExpandingMesh
+from self_similar_fe.mesh import Array, ExpandingMesh
 from self_similar_fe.similarity import leading_obstacle, similarity
 
 __all__ = ["Run", "simulate_expanding"]
 
-Array = NDArray[np.float64]
 MOST_WORK = 1e9  # steps x nodes: about an hour
 LARGEST_PULL = 0.1  # in any step, over the largest push: sound runs under loads reach 0.03 by round-off
 MOST_WIDENED = 100.0  # times a tolerance of the active set that had to be widened in a step

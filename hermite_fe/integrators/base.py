@@ -9,11 +9,11 @@ from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam.errors import InputError
 from bent_beam.fields import Part, Quantity
 from bent_beam.impact import Impact
+from hermite_fe.compiled import Array
 from hermite_fe.stepping import Problem, State
 
 __all__ = ["Integrator"]
@@ -82,7 +82,7 @@ class Integrator(Part, ABC):
             growth=None if self.growth is None else self.growth / factor,
         )
 
-    def instants(self, end_time: float) -> NDArray[np.float64]:
+    def instants(self, end_time: float) -> Array:
         """All instants from 0 to ``end_time``, s, shape (steps + 1,). ``time_step`` must be set."""
         if self.time_step is None:
             raise InputError("integrator.time_step is not chosen yet")
@@ -111,7 +111,7 @@ class Integrator(Part, ABC):
 
     @abstractmethod
     def advance(
-        self, problem: Problem, state: State, memory: Any, times: NDArray[np.float64], first: int, last: int
+        self, problem: Problem, state: State, memory: Any, times: Array, first: int, last: int
     ) -> tuple[int, int]:
         """Take steps ``first`` … ``last`` − 1 between the instants ``times`` in place. Returns a status of
         :mod:`hermite_fe.active_set` and the step reached: SOLVED and ``last`` when all went well."""

@@ -29,21 +29,17 @@ from __future__ import annotations
 from typing import Annotated, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam.errors import InputError
 from bent_beam.fields import Quantity
 from hermite_fe.active_set import SOLVED
 from hermite_fe.banded import dot, multiply, stiff_multiply
-from hermite_fe.compiled import compiled_within, recompiling
+from hermite_fe.compiled import Array, Flags, compiled_within, recompiling
 from hermite_fe.constraints import row_times
 from hermite_fe.stepping import Problem, State, add_energies, end_step, initial_acceleration, mean_forces, prepare
 
 __all__ = ["Motion", "SpectralRadius", "Vectors", "correct", "finish_step", "motion_of", "predict", "prepare_step",
            "take_reaction"]  # fmt: skip
-
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 SpectralRadius = Annotated[float, Quantity("", "ρ∞ at infinite frequency (1: none is damped)", least=0.0, most=1.0)]
 
 

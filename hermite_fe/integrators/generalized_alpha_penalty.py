@@ -16,15 +16,12 @@ import dataclasses
 from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
-import numpy as np
-from numpy.typing import NDArray
-
 from bent_beam.errors import InputError
 from bent_beam.fields import Quantity
 from bent_beam.impact import Impact
 from hermite_fe.active_set import CYCLING, SINGULAR, SOLVED, solve_free
 from hermite_fe.banded import copy
-from hermite_fe.compiled import compiled, compiled_within
+from hermite_fe.compiled import Array, Flags, compiled, compiled_within
 from hermite_fe.constraints import (
     PRODUCT,
     SMALLEST_REACTION,
@@ -47,9 +44,6 @@ from hermite_fe.integrators.generalized_alpha import (
 from hermite_fe.stepping import Problem, State, forces_at
 
 __all__ = ["GeneralizedAlphaPenalty"]
-
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 
 
 @dataclass(frozen=True)

@@ -23,21 +23,17 @@ from dataclasses import dataclass
 from typing import ClassVar, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam.checks import affordable
 from bent_beam.errors import InputError
 from hermite_fe.active_set import SOLVED, solve_constrained
 from hermite_fe.banded import combine, copy, dot
-from hermite_fe.compiled import compiled, compiled_within
+from hermite_fe.compiled import Array, Flags, compiled, compiled_within
 from hermite_fe.constraints import Constraints, ask_for_gaps, constraints_of, note_complementarity
 from hermite_fe.integrators.base import MOST_WORK, Integrator
 from hermite_fe.stepping import Problem, State, add_energies, add_impulses, end_step, forces_at, mean_forces
 
 __all__ = ["MasslessBoundary"]
-
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 STABLE = 0.8  # of a step, over the period of the fastest wave / 2π; Verlet's limit is 2
 
 

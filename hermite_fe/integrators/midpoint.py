@@ -16,11 +16,10 @@ from dataclasses import dataclass
 from typing import ClassVar, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hermite_fe.active_set import CYCLING, SOLVED, solve_free
 from hermite_fe.banded import PAD, multiply
-from hermite_fe.compiled import compiled, compiled_within
+from hermite_fe.compiled import Array, Places, compiled, compiled_within
 from hermite_fe.constraints import count_rounds
 from hermite_fe.elastic_wall import FORCE, FORCE_TIME, PENETRATION, PRESSURE, push
 from hermite_fe.integrators.base import Integrator
@@ -28,8 +27,6 @@ from hermite_fe.integrators.theta import Vectors, begin_step, finish_step, vecto
 from hermite_fe.stepping import WALL, Problem, State
 
 __all__ = ["Midpoint"]
-
-Array = NDArray[np.float64]
 
 CONVERGED = 1e-11  # change of Δv over the largest velocity; the next would be its square
 ROUNDED = 2.0**-52  # h times that change over the largest deflection: of a beam at rest nothing smaller can be told
@@ -48,7 +45,7 @@ class MidpointMemory(NamedTuple):
     vectors: Vectors
     base: Array
     tangent: Array
-    reach: NDArray[np.int64]
+    reach: Places
     impulse: Array
     peaks: Array
     right: Array

@@ -18,13 +18,10 @@ import math
 from dataclasses import dataclass
 from typing import Annotated, ClassVar, NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
 from bent_beam.fields import Quantity
 from hermite_fe.active_set import SOLVED, solve_constrained
 from hermite_fe.banded import copy, dot, multiply
-from hermite_fe.compiled import compiled, compiled_within
+from hermite_fe.compiled import Array, compiled, compiled_within
 from hermite_fe.constraints import (
     Constraints,
     ask_for_gaps,
@@ -51,8 +48,6 @@ from hermite_fe.integrators.generalized_alpha import (
 from hermite_fe.stepping import Problem, State, add_impulses, forces_at
 
 __all__ = ["LEVELS", "NonsmoothGeneralizedAlpha"]
-
-Array = NDArray[np.float64]
 
 LEVELS = ("velocity", "position_velocity", "position_velocity_acceleration")
 VELOCITY, _, ACCELERATION = range(3)

@@ -27,12 +27,11 @@ from dataclasses import dataclass
 from typing import Annotated, ClassVar, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam.fields import Quantity
 from hermite_fe.active_set import SOLVED, solve_constrained
 from hermite_fe.banded import copy, dot, multiply, stiff_multiply
-from hermite_fe.compiled import compiled, compiled_within
+from hermite_fe.compiled import Array, compiled, compiled_within
 from hermite_fe.constraints import (
     Constraints,
     ask_for_gaps,
@@ -50,8 +49,6 @@ from hermite_fe.maxwell import add_branch_forces, step_branches, stiffen
 from hermite_fe.stepping import MATERIAL, Problem, State, add_energies, add_impulses, end_step, mean_forces, prepare
 
 __all__ = ["MoreauJean", "SignoriniPosition", "Vectors", "begin_step", "finish_step", "vectors_of"]
-
-Array = NDArray[np.float64]
 
 
 class Vectors(NamedTuple):
