@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, NamedTuple
 
 from bent_beam.errors import InputError
 from bent_beam.fields import Quantity
@@ -30,20 +30,21 @@ from hermite_fe.constraints import (
     count_rounds,
     rows_times,
 )
+from hermite_fe.integrators import generalized_alpha as alpha
 from hermite_fe.integrators.base import Integrator
-from hermite_fe.integrators.generalized_alpha import (
-    Motion,
-    SpectralRadius,
-    correct,
-    finish_step,
-    motion_of,
-    predict,
-    prepare_step,
-    take_reaction,
-)
 from hermite_fe.stepping import Problem, State, forces_at
 
 __all__ = ["GeneralizedAlphaPenalty"]
+
+
+class PenaltyMemory(NamedTuple):
+    """The motion, work arrays of the contact, and k_c, d_c and ``contact_rounds``."""
+
+    motion: alpha.Motion
+    conditions: Constraints
+    stiffness: float
+    damping: float
+    rounds: int
 
 
 @dataclass(frozen=True)
@@ -52,7 +53,7 @@ class GeneralizedAlphaPenalty(Integrator):
 
     rebounds: ClassVar[bool] = False
 
-    spectral_radius: SpectralRadius = 0.8
+    spectral_radius: alpha.SpectralRadius = 0.8
     stiffness: Annotated[
         float | None, Quantity("N/m²", "k_c, per length of beam", above=0.0, absent="chosen, 1e7 μ/t*²")
     ] = None
@@ -81,40 +82,39 @@ class GeneralizedAlphaPenalty(Integrator):
             damping=3e4 * mass / time if self.damping is None else self.damping,
         )
 
-    def start(self, problem: Problem, state: State) -> tuple[Motion, Constraints]:
+    def start(self, problem: Problem, state: State) -> PenaltyMemory:
         if self.stiffness is None or self.damping is None:
             raise InputError("integrator.stiffness and integrator.damping are not chosen yet")
         if problem.rows.dofs.shape[1] != 1:
             raise InputError('generalized_alpha_penalty takes contact.kind = "node" only')
-        return motion_of(problem, state, self.spectral_radius), constraints_of(problem.rows)
+        motion = alpha.motion_of(problem, state, self.spectral_radius)
+        return PenaltyMemory(motion, constraints_of(problem.rows), self.stiffness, self.damping, self.contact_rounds)
 
     def advance(
-        self, problem: Problem, state: State, memory: tuple[Motion, Constraints], times: Array, first: int, last: int
+        self, problem: Problem, state: State, memory: PenaltyMemory, times: Array, first: int, last: int
     ) -> tuple[int, int]:
-        assert self.stiffness is not None and self.damping is not None
-        return take_steps(problem, state, memory, times, first, last, self.stiffness, self.damping, self.contact_rounds)
+        return take_steps(problem, state, memory, times, first, last)
 
 
 @compiled
 def take_steps(
-    problem: Problem, state: State, memory: tuple[Motion, Constraints], times: Array, first: int, last: int,
-    stiffness: float, damping: float, rounds: int
-) -> tuple[int, int]:  # fmt: skip
+    problem: Problem, state: State, memory: PenaltyMemory, times: Array, first: int, last: int
+) -> tuple[int, int]:
     """Take the steps ``first`` … ``last`` − 1 between the instants ``times``; returns (status, step reached)."""
-    motion, conditions = memory
+    motion = memory.motion
     scheme, vectors, reactions = motion
     for k in range(first, last):
         t, made_for = times[k], problem.solver.step[0]
-        h = prepare_step(problem, scheme, times[k + 1] - t, times[k + 1])
+        h = alpha.prepare_step(problem, scheme, times[k + 1] - t, times[k + 1])
         if h != made_for:
             reactions.with_spring[:] = False  # the new matrix has no springs yet
-        predict(state, motion, h)
+        alpha.predict(state, motion, h)
         forces_at(problem.matrices, t + h, state.q, state.v, vectors.force, vectors.scratch)
-        status = solve_with_springs(problem, state, motion, conditions, h, stiffness, damping, rounds)
+        status = solve_with_springs(problem, state, memory, h)
         if status == SOLVED:
-            correct(state, motion, h)
-            add_spring_reactions(problem, state, motion, h, stiffness, damping)
-            status = finish_step(problem, state, motion, t, h)
+            alpha.correct(state, motion, h)
+            add_spring_reactions(problem, state, memory, h)
+            status = alpha.finish_step(problem, state, motion, t, h)
         if status != SOLVED:
             return status, k
     return SOLVED, last
@@ -122,11 +122,11 @@ def take_steps(
 
 @compiled_within
 def set_springs(
-    problem: Problem, motion: Motion, conditions: Constraints, closed: Flags, stiffness: float, damping: float,
-    position_share: float, velocity_share: float
-) -> None:  # fmt: skip
+    problem: Problem, memory: PenaltyMemory, closed: Flags, position_share: float, velocity_share: float
+) -> None:
     """Put the springs and dampers of the closed constraints into the step matrix and into ``vectors.b``."""
     matrices, rows, _, solver = problem
+    motion, conditions, stiffness, damping, _ = memory
     with_spring, b = motion.reactions.with_spring, motion.vectors.b
     copy(motion.vectors.force, b)
     for j in range(closed.size):
@@ -144,14 +144,12 @@ def set_springs(
 
 
 @compiled_within
-def solve_with_springs(
-    problem: Problem, state: State, motion: Motion, conditions: Constraints, h: float, stiffness: float, damping: float,
-    rounds: int
-) -> int:  # fmt: skip
+def solve_with_springs(problem: Problem, state: State, memory: PenaltyMemory, h: float) -> int:
     """Solve for v̇⁺ under ``vectors.force`` and the springs of the closed constraints, and again until the open are off
     the wall and the closed in it, or pushed off it in this step: their dampers alone keep them out. CYCLING after
-    ``rounds`` solutions.
+    ``memory.rounds`` solutions.
     """
+    motion, conditions, stiffness, damping, rounds = memory
     rows, solver, closed, x, status = problem.rows, problem.solver, state.closed, motion.vectors.x, CYCLING
     _, _, gamma, beta, s = motion.scheme
     position_share, velocity_share = h * h * beta * s, h * gamma * s
@@ -159,7 +157,7 @@ def solve_with_springs(
     rows_times(rows, state.v, conditions.Gv)
     taken = 0
     while status == CYCLING and taken < rounds:
-        set_springs(problem, motion, conditions, closed, stiffness, damping, position_share, velocity_share)
+        set_springs(problem, memory, closed, position_share, velocity_share)
         status = solve_free(solver, rows, motion.vectors.b, x)
         taken += 1
         for j in range(closed.size):
@@ -173,10 +171,9 @@ def solve_with_springs(
 
 
 @compiled_within
-def add_spring_reactions(
-    problem: Problem, state: State, motion: Motion, h: float, stiffness: float, damping: float
-) -> None:
+def add_spring_reactions(problem: Problem, state: State, memory: PenaltyMemory, h: float) -> None:
     """The forces of springs and dampers at the end of the step, and their impulses."""
+    motion, _, stiffness, damping, _ = memory
     rows, reactions, worst = problem.rows, motion.reactions, state.worst
     for j in range(rows.gap.size):
         d, g = rows.dofs[j, 0], rows.factors[j, 0]
@@ -184,6 +181,6 @@ def add_spring_reactions(
         if state.closed[j]:
             force = -(stiffness * gap + damping * g * state.v[d]) * rows.tributary[j]
             worst[PRODUCT] = max(worst[PRODUCT], abs(h * force * gap))
-        take_reaction(motion.scheme, reactions, h, j, force)
+        alpha.take_reaction(motion.scheme, reactions, h, j, force)
         state.impulse[j] += reactions.impulse[j]
         worst[SMALLEST_REACTION] = min(worst[SMALLEST_REACTION], h * force)

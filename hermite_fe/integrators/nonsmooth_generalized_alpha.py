@@ -33,18 +33,8 @@ from hermite_fe.constraints import (
     rows_times,
     set_bounds,
 )
+from hermite_fe.integrators import generalized_alpha as alpha
 from hermite_fe.integrators.base import Integrator
-from hermite_fe.integrators.generalized_alpha import (
-    Motion,
-    SpectralRadius,
-    Vectors,
-    correct,
-    finish_step,
-    motion_of,
-    predict,
-    prepare_step,
-    take_reaction,
-)
 from hermite_fe.stepping import Problem, State, add_impulses, forces_at
 
 __all__ = ["LEVELS", "NonsmoothGeneralizedAlpha"]
@@ -56,12 +46,13 @@ AT_REST = 1e-12
 
 
 class AlphaMemory(NamedTuple):
-    """The motion, and the conditions of the three contact problems of a step."""
+    """The motion, the conditions of the three contact problems of a step, and the place in :data:`LEVELS`."""
 
-    motion: Motion
+    motion: alpha.Motion
     smooth: Constraints
     position: Constraints
     velocity: Constraints
+    level: int
 
 
 @dataclass(frozen=True)
@@ -70,67 +61,69 @@ class NonsmoothGeneralizedAlpha(Integrator):
 
     holds: ClassVar[bool] = True
 
-    spectral_radius: SpectralRadius = 0.8
+    spectral_radius: alpha.SpectralRadius = 0.8
     levels: Annotated[str, Quantity("", "at which constraints are imposed", choices=LEVELS)] = LEVELS[-1]
 
     def start(self, problem: Problem, state: State) -> AlphaMemory:
-        motion = motion_of(problem, state, self.spectral_radius)
-        return AlphaMemory(motion, *(constraints_of(problem.rows) for _ in range(3)))
+        smooth, position, velocity = (constraints_of(problem.rows) for _ in range(3))
+        motion, level = alpha.motion_of(problem, state, self.spectral_radius), LEVELS.index(self.levels)
+        return AlphaMemory(motion, smooth, position, velocity, level)
 
     def advance(
         self, problem: Problem, state: State, memory: AlphaMemory, times: Array, first: int, last: int
     ) -> tuple[int, int]:
-        return take_steps(problem, state, memory, times, first, last, LEVELS.index(self.levels))
+        return take_steps(problem, state, memory, times, first, last)
 
 
 @compiled
 def take_steps(
-    problem: Problem, state: State, memory: AlphaMemory, times: Array, first: int, last: int, level: int
+    problem: Problem, state: State, memory: AlphaMemory, times: Array, first: int, last: int
 ) -> tuple[int, int]:
     """Take the steps ``first`` … ``last`` − 1 between the instants ``times``; returns (status, step reached)."""
-    motion, _, _, velocity = memory
+    motion, _, _, velocity, level = memory
     for k in range(first, last):
-        t, h = times[k], prepare_step(problem, motion.scheme, times[k + 1] - times[k], times[k + 1])
+        t, h = times[k], alpha.prepare_step(problem, motion.scheme, times[k + 1] - times[k], times[k + 1])
         set_bounds(problem.rows, problem.law, state.closed, t, h, velocity.least)
         rows_times(problem.rows, state.v, velocity.Gv)
         if level == VELOCITY:
             status = velocity_step(problem, state, memory, t, h)
         else:
-            status = position_step(problem, state, memory, t, h, level == ACCELERATION)
+            status = position_step(problem, state, memory, t, h)
         if status == SOLVED:
-            status = finish_step(problem, state, motion, t, h)
+            status = alpha.finish_step(problem, state, motion, t, h)
         if status != SOLVED:
             return status, k
     return SOLVED, last
 
 
 @compiled_within
-def smooth_motion(problem: Problem, state: State, motion: Motion, conditions: Constraints, t: float, h: float) -> int:
+def smooth_motion(problem: Problem, state: State, memory: AlphaMemory, t: float, h: float) -> int:
     """The step's motion without jumps, with the contact conditions of accelerations; returns the status."""
+    motion, conditions = memory.motion, memory.smooth
     scheme, vectors, reactions = motion
-    predict(state, motion, h)
+    alpha.predict(state, motion, h)
     forces_at(problem.matrices, t + h, state.q, state.v, vectors.b, vectors.scratch)
     status = solve_constrained(problem.solver, problem.rows, conditions, vectors.b, vectors.x)
     if status == SOLVED:
         note_complementarity(problem.rows, conditions, vectors.x, h, h, state.worst)
-        correct(state, motion, h)
+        alpha.correct(state, motion, h)
         for j in range(conditions.p.size):
-            take_reaction(scheme, reactions, h, j, conditions.p[j])
+            alpha.take_reaction(scheme, reactions, h, j, conditions.p[j])
     return status
 
 
 @compiled_within
-def velocity_jump(problem: Problem, state: State, motion: Motion, velocity: Constraints) -> int:
+def velocity_jump(problem: Problem, state: State, memory: AlphaMemory) -> int:
     """The jump W (``vectors.x``) of (M + hγsC + h²βsK)W = b + Gᵀp, 0 ≤ p ⊥ Gv⁺ + eGv ≥ 0, v⁺ += W, Gv of before the
     step, b = ``vectors.b``. Puts KW in ``vectors.force``, CW in ``vectors.scratch``; returns the status."""
     matrices, rows, law, solver = problem
-    vectors, v = motion.vectors, state.v
+    vectors, velocity, v = memory.motion.vectors, memory.velocity, state.v
     W = vectors.x
     rows_times(rows, v, velocity.Gq)
     ask_for_rebound(law, velocity, velocity.Gq)
     status = solve_constrained(solver, rows, velocity, vectors.b, W)
     if status == SOLVED:
-        copy(velocity.p, motion.reactions.impulse)
+        copy(velocity.p, memory.motion.reactions.impulse)
         add_impulses(state, velocity)
         note_complementarity(rows, velocity, W, 1.0, 1.0, state.worst)
         multiply(matrices.K, W, vectors.force)
@@ -151,15 +144,14 @@ def velocity_step(problem: Problem, state: State, memory: AlphaMemory, t: float,
     accelerations would have to compensate them, which is unstable for a stiff beam.
     """
     q = state.q
-    motion, smooth, _, velocity = memory
-    scheme, vectors, _ = motion
+    (scheme, vectors, _), smooth, _, velocity, _ = memory
     share = h * scheme.beta / scheme.gamma  # a constraint comes to rest h − share ahead if it is closed now
     find_candidates(problem.rows, velocity, q, state.closed, h - share)
     smooth.candidate[:] = False
-    status = smooth_motion(problem, state, motion, smooth, t, h)
+    status = smooth_motion(problem, state, memory, t, h)
     vectors.b[:] = 0.0
     if status == SOLVED:
-        status = velocity_jump(problem, state, motion, velocity)
+        status = velocity_jump(problem, state, memory)
     copy(velocity.closed, state.closed)
     W, J = vectors.x, vectors.new_jump_force
     for i in range(W.size):
@@ -171,13 +163,11 @@ def velocity_step(problem: Problem, state: State, memory: AlphaMemory, t: float,
 
 
 @compiled_within
-def position_step(
-    problem: Problem, state: State, memory: AlphaMemory, t: float, h: float, with_acceleration: bool
-) -> int:
+def position_step(problem: Problem, state: State, memory: AlphaMemory, t: float, h: float) -> int:
     """Constraints at position and velocity level and, for smooth reactions, at acceleration level, one after the other.
 
     smooth :    M v̇⁺ + C ṽ + K q̃ = F⁺ + Gᵀλ,   0 ≤ λ ⊥ Gv̇⁺ ≥ 0 for constraints at rest on the wall
-        (with_acceleration; else λ = 0)
+        (at acceleration level; else λ = 0)
     position :  (M + hγsC + h²βsK)U = Gᵀν,                 0 ≤ ν ⊥ g(q̃ + U) ≥ 0                (after 3.2.19)
     velocity :  (M + hγsC + h²βsK)W = −hKU + Gᵀ(p − p_λ),  0 ≤ p ⊥ Gv⁺ + eGv ≥ 0               (after 3.2.20)
         for constraints closed at position, or with λ > 0; p = 0 in the others
@@ -189,26 +179,27 @@ def position_step(
     GᵀΛ and 0 ≤ Λ, an undamped beam whose shortest waves the steps do not resolve gains energy from the wall (1.8 times
     the initial one at κ/ν = 0.1, 50 elements, h = 1e-3 T*).
     """
-    motion, smooth, position, velocity = memory
+    motion, smooth, position, velocity, level = memory
     at_rest = motion.reactions.at_rest
     for j in range(at_rest.size):
-        smooth.candidate[j] = with_acceleration and at_rest[j]
+        smooth.candidate[j] = level == ACCELERATION and at_rest[j]
         smooth.least[j] = velocity.least[j] if smooth.candidate[j] else 0.0  # 0 or −∞, in any unit
         smooth.closed[j] = smooth.candidate[j]
         smooth.target[j] = 0.0
-    status = smooth_motion(problem, state, motion, smooth, t, h)
+    status = smooth_motion(problem, state, memory, t, h)
     if status == SOLVED:
         copy(velocity.least, position.least)
-        status = position_jump(problem, state, motion.vectors, position, h)
+        status = position_jump(problem, state, memory, h)
     if status == SOLVED:
-        status = velocity_after_position(problem, state, motion, smooth.p, velocity, h)
+        status = velocity_after_position(problem, state, memory, h)
     return status
 
 
 @compiled_within
-def position_jump(problem: Problem, state: State, vectors: Vectors, position: Constraints, h: float) -> int:
+def position_jump(problem: Problem, state: State, memory: AlphaMemory, h: float) -> int:
     """U of :func:`position_step`. Puts −hKU in ``vectors.b``; returns the status."""
     matrices, rows, _, solver = problem
+    vectors, position = memory.motion.vectors, memory.position
     q, U, b, force = state.q, vectors.x, vectors.b, vectors.new_jump_force
     ask_for_gaps(rows, position, q, state.closed, 1.0, 1.0)
     b[:] = 0.0
@@ -225,18 +216,16 @@ def position_jump(problem: Problem, state: State, vectors: Vectors, position: Co
 
 
 @compiled_within
-def velocity_after_position(
-    problem: Problem, state: State, motion: Motion, smooth_p: Array, velocity: Constraints, h: float
-) -> int:
+def velocity_after_position(problem: Problem, state: State, memory: AlphaMemory, h: float) -> int:
     """W of :func:`position_step`, and which constraints are at rest after it. ``vectors.b`` is −hKU."""
     rows, v = problem.rows, state.v
-    scheme, vectors, reactions = motion
+    (scheme, vectors, reactions), smooth, _, velocity, _ = memory
     for j in range(reactions.at_rest.size):
-        velocity.candidate[j] = state.closed[j] or smooth_p[j] > 0.0
+        velocity.candidate[j] = state.closed[j] or smooth.p[j] > 0.0
         velocity.closed[j] = velocity.candidate[j]
         for i in range(rows.dofs.shape[1]):
             vectors.b[rows.dofs[j, i]] -= rows.factors[j, i] * reactions.impulse[j]
-    status = velocity_jump(problem, state, motion, velocity)
+    status = velocity_jump(problem, state, memory)
     force, damping = vectors.force, vectors.scratch
     for i in range(v.size):
         vectors.missed_momentum[i] += (0.5 - scheme.gamma * scheme.s) * damping[i]
