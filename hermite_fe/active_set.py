@@ -107,20 +107,6 @@ def take_solution(solver: Solver, x: Array) -> None:
 
 
 @compiled_within
-def solve_round(
-    solver: Solver, rows: Rows, conditions: Constraints, b: Array, x: Array, changed: int, tolerance: float
-) -> tuple[int, int]:
-    """Solve with the constraints as they are closed now; returns :func:`find_wrong`, (−1, −1) where S is singular.
-
-    changed : beyond this unknown the right-hand side is as it was in the round before.
-    """
-    if not update(solver, rows, b, conditions.target, changed):
-        return -1, -1
-    take_solution(solver, x)
-    return find_wrong(solver, rows, conditions, b, x, tolerance)
-
-
-@compiled_within
 def exchange_wrong(solver: Solver, rows: Rows, worst_only: bool) -> None:
     """Exchange the constraints whose sign is wrong: all, or the worst of each run of neighbours that are wrong
     alike."""
@@ -157,12 +143,16 @@ def solve_constrained(
                 conditions.closed[j], solver.reached[j] = False, 0.0
             begin(solver, rows, conditions)
             changed = everything
-        count, last = solve_round(solver, rows, conditions, b, x, changed, tolerance)
         rounds += 1
+        if not update(solver, rows, b, conditions.target, changed):
+            status = SINGULAR
+            break
+        take_solution(solver, x)
+        count, last = find_wrong(solver, rows, conditions, b, x, tolerance)
         changed = -1 if rounds < most_rounds else everything
         patience = PATIENCE if count < fewest else patience - 1
-        if count <= 0:
-            status = SOLVED if count == 0 else SINGULAR
+        if count == 0:
+            status = SOLVED
         elif rounds > most_rounds:
             latest, opened_at_once = exchange_one(solver, rows, p, last, latest)
             tolerance *= 10.0 if opened_at_once else 1.0

@@ -20,8 +20,8 @@ from numpy.typing import NDArray
 
 from hermite_fe.compiled import Array, Flags, Places, compiled, compiled_within
 
-__all__ = ["FADED", "PAD", "combine", "copy", "dot", "factor", "multiply", "product", "row_sums", "stiff_form",
-           "stiff_multiply", "stiff_product", "substitute_back", "substitute_forward"]  # fmt: skip
+__all__ = ["FADED", "PAD", "combine", "copy", "dot", "factor", "multiply", "product", "row_sums", "stiff_multiply",
+           "stiff_product", "substitute_back", "substitute_forward"]  # fmt: skip
 
 PAD = 4
 BLOCK = 16  # unknowns after which a solution is checked for having faded
@@ -91,18 +91,12 @@ def product(A: Array, x: Array) -> Array:
     return y
 
 
-def stiff_product(A: Array, x: Array) -> Array:
-    """A x by differences, as the integrators compute it: what is to cancel cancels to the last digit."""
+def stiff_product(A: Array, x: Array, sums: Array | None = None) -> Array:
+    """A x by differences, as the integrators compute it: what is to cancel cancels to the last digit. ``sums`` of
+    :func:`row_sums`, where they are known."""
     y = np.empty(x.size)
-    stiff_multiply(A, row_sums(A), x, y)
+    stiff_multiply(A, row_sums(A) if sums is None else sums, x, y)
     return y
-
-
-def stiff_form(A: Array, sums: Array, x: Array) -> float:
-    """xᵀA x by differences; ``sums`` of :func:`row_sums`."""
-    y = np.empty(x.size)
-    stiff_multiply(A, sums, x, y)
-    return float(x @ y)
 
 
 @compiled_within
@@ -126,11 +120,6 @@ def combine(M: Array, C: Array, K: Array, c: float, k: float, unknown: Places, S
     """S = M + cC + kK with the dofs at their places ``unknown`` among the unknowns; rows of multipliers are zero."""
     n = unknown.size
     S[:] = 0.0
-    if unknown[n - 1] == n - 1 + PAD:  # no multipliers: all dofs next to one another
-        for m in range(4):
-            for i in range(n - m):
-                S[m, i + PAD] = M[m, i] + c * C[m, i] + k * K[m, i]
-        return
     for i in range(n):
         here = unknown[i]
         for m in range(min(4, n - i)):

@@ -25,16 +25,6 @@ only:
 Neither acts after t_w = 0.005 T* (:data:`bent_beam.impact.FIRST_SPREAD`), from when on waves from the ends may move the
 zone. A held constraint may pull; what it pulled is recorded as ``held_impulse``, and how hard as ``hold`` in the
 settings.
-
-**Neighbours** move one another by the Delassus operator W = G M⁻¹ Gᵀ (:func:`impact_coupling`). A row j that stops from
-the velocity V₀ takes the impulse V₀/W_jj, and this changes the gap velocity of row i by (W_ij/W_jj)V₀. With
-
-    c = W_{j,j±1}/W_jj
-
-the neighbour that has just come to rest is thrown off the wall at cV₀ when c > 0, and pressed on, which only costs
-another impulse, when c < 0. On equal elements (l = 1, μ = 1) lumped masses with the rotary part r give
-
-    nodes: W = 1, c = 0;    middles: W = ½ + 1/(64 r),  c = (¼ − 1/(128 r))/W: zero at r = 1/32.
 """
 
 from __future__ import annotations
@@ -192,7 +182,11 @@ CONTACTS: dict[str, type] = {
 
 
 def impact_coupling(contact: Contact, mass: Mass) -> float:
-    """c, see the module's text, of rows far from the ends of a beam of equal elements."""
+    """c = W_{j,j±1}/W_jj, W = G M⁻¹ Gᵀ, of rows far from the ends of a beam of equal elements.
+
+    A row that stops from the velocity V₀ throws its neighbour off the wall at cV₀ where c > 0, and presses it on where
+    c < 0 (docs/numerics.md).
+    """
     from scipy.linalg import cho_solve_banded, cholesky_banded  # here: few runs need what takes long to import
 
     beam = HermiteBeam(np.arange(COUPLED + 1.0), 1.0, 1.0)

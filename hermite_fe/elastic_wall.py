@@ -40,10 +40,11 @@ HALVINGS = 60  # of an interval that holds a zero
 
 
 class Springs(NamedTuple):
-    """stiffness, damping : k, N/m², and c, N s/m²; of a stop N/m and N s/m. facing : (dofs,), p = q + facing, m.
+    """stiffness, damping : k, N/m², and c, N s/m²; of a stop N/m and N s/m. facing : (dofs,), p = side·q + facing, m.
 
     lengths, shares : (elements,), m, and σ of shear.
     Elements ``first`` to ``last`` − 1 stand before the wall. stop : the dof of a stop, or −1.
+    side : 1 of a wall in front of the beam, −1 behind it.
     """
 
     stiffness: float
@@ -54,6 +55,7 @@ class Springs(NamedTuple):
     first: int
     last: int
     stop: int
+    side: float = 1.0
 
 
 NO_SPRINGS = Springs(0.0, 0.0, np.zeros(0), np.zeros(0), np.zeros(0), 0, 0, -1)
@@ -70,12 +72,18 @@ def shapes(at: float, length: float, share: float) -> tuple[float, float, float,
 
 
 @compiled_within
+def sunk(springs: Springs, q: Array, i: int) -> float:
+    """p, or its slope, of dof i."""
+    return springs.side * q[i] + springs.facing[i]
+
+
+@compiled_within
 def depth(springs: Springs, q: Array, e: int, at: float) -> float:
     """p at ξ = ``at`` of element e."""
     n1, n2, n3, n4 = shapes(at, springs.lengths[e], springs.shares[e])
-    i, face = 2 * e, springs.facing
-    return (n1 * (q[i] + face[i]) + n2 * (q[i + 1] + face[i + 1])
-            + n3 * (q[i + 2] + face[i + 2]) + n4 * (q[i + 3] + face[i + 3]))  # fmt: skip
+    i = 2 * e
+    return (n1 * sunk(springs, q, i) + n2 * sunk(springs, q, i + 1)
+            + n3 * sunk(springs, q, i + 2) + n4 * sunk(springs, q, i + 3))  # fmt: skip
 
 
 @compiled_within
@@ -108,8 +116,9 @@ def add_zeros(springs: Springs, q: Array, e: int, places: Array, count: int) -> 
 
     Between its turning points a cubic is monotone; a change of sign there is found by halving.
     """
-    i, face, third = 2 * e, springs.facing, springs.lengths[e] / 3.0
-    a, d, left, right = q[i] + face[i], q[i + 2] + face[i + 2], q[i + 1] + face[i + 1], q[i + 3] + face[i + 3]
+    i, third = 2 * e, springs.lengths[e] / 3.0
+    a, left, d, right = (sunk(springs, q, i), sunk(springs, q, i + 1),
+                         sunk(springs, q, i + 2), sunk(springs, q, i + 3))  # fmt: skip
     angle = springs.shares[e] * ((d - a) / springs.lengths[e] - 0.5 * (left + right))
     b, c = a + third * (left + angle), d - third * (right + angle)
     if max(a, b, c, d) <= 0.0 or min(a, b, c, d) >= 0.0:
@@ -150,13 +159,12 @@ def split(springs: Springs, q: Array, new: Array, e: int, places: Array) -> int:
 def push(
     springs: Springs, q: Array, new: Array, h: float, force: Array, tangent: Array, peaks: Array
 ) -> tuple[float, float, int]:
-    """f = ∫Nᵀ R̄ dx, (dofs,), of a step from q to ``new``, and ∂f/∂q⁺ in lower banded form, (4, dofs).
+    """f = ∫Nᵀ R̄ dx, (dofs,), of a step from q to ``new``; ∂f/∂q⁺ is added to ``tangent``, lower banded, (4, dofs).
 
-    Returns the whole force, N, the dashpots' loss over the step, J, and the last dof that is touched, −1: none.
-    ``peaks`` takes the largest penetration and pressure.
+    Returns the whole force, N, the dashpots' loss over the step, J, and the last dof that is touched, −1: none. Forces
+    are positive off the wall. ``peaks`` takes the largest penetration and pressure.
     """
     force[:] = 0.0
-    tangent[:] = 0.0
     total, loss, touched, places = 0.0, 0.0, -1, np.zeros(8)
     peaks[PENETRATION] = peaks[PRESSURE] = 0.0
     for e in range(springs.first, springs.last):
@@ -182,11 +190,12 @@ def push(
                         tangent[j - m, i + m] += weight * slope * N[j] * N[m]
     if springs.stop >= 0:
         i = springs.stop
-        after = new[i] + springs.facing[i]
-        pressure, slope, taken = reaction(q[i] + springs.facing[i], after, h, springs.stiffness, springs.damping)
+        after = sunk(springs, new, i)
+        pressure, slope, taken = reaction(sunk(springs, q, i), after, h, springs.stiffness, springs.damping)
         total, loss, touched = pressure, taken, i
         peaks[PENETRATION], peaks[PRESSURE] = max(after, 0.0), pressure
-        force[i], tangent[0, i] = pressure, slope
+        force[i] = pressure
+        tangent[0, i] += slope
     return total, loss, touched
 
 
@@ -202,6 +211,6 @@ def stored_energy(springs: Springs, q: Array) -> float:
                 p = max(depth(springs, q, e, places[piece] + span * POINTS[point]), 0.0)
                 energy += 0.5 * springs.stiffness * p * p * WEIGHTS[point] * span * springs.lengths[e]
     if springs.stop >= 0:
-        p = max(q[springs.stop] + springs.facing[springs.stop], 0.0)
+        p = max(sunk(springs, q, springs.stop), 0.0)
         energy += 0.5 * springs.stiffness * p * p
     return energy

@@ -105,8 +105,8 @@ class BeamModel:
         return np.asarray(bending.free + sums)
 
     def gap(self, q: Array) -> Array:
-        """Distance of the nodes to the wall, m, shape (nodes,)."""
-        return np.asarray(-(q[0::2] + self.facing[0::2]))
+        """Distance of the nodes to the wall, m, (…, nodes), of q, (…, dofs)."""
+        return np.asarray(-(q[..., 0::2] + self.facing[0::2]))
 
 
 def beam_model(
@@ -128,8 +128,8 @@ def beam_model(
         for curvature in (impact.curvature, impact.relative_curvature)
     )
     facing[0::2] -= impact.wall_clearance
-    behind_the_beam = -natural
-    behind_the_beam[0::2] -= impact.opposite_wall or 0.0
+    from_behind = -natural
+    from_behind[0::2] -= impact.opposite_wall or 0.0
     motion = impact.free_motion(0.0)
     displacement = beam.interpolate(motion(s), motion(s, by_x=1) + impact.shear_length**2 * motion(s, by_x=3))
     velocity = beam.interpolate(motion(s, by_t=1), motion(s, by_x=1, by_t=1))
@@ -156,7 +156,7 @@ def beam_model(
         contacts=rows,
         supports=supports,
         springs=springs_of(impact, beam, facing, full=full),
-        second=NO_SPRINGS if impact.opposite_wall is None else springs_of(impact, beam, behind_the_beam, full=full),
+        second=NO_SPRINGS if impact.opposite_wall is None else springs_of(impact, beam, from_behind, -1.0, full=full),
         bending=bending,
         branches=None if branches is None else branches_at_rest(bending_stiffness, branches),
     )
@@ -214,7 +214,7 @@ def before_the_wall(rows: ContactRows, impact: Impact, supports: tuple[int, ...]
     return rows.at(kept)
 
 
-def springs_of(impact: Impact, beam: HermiteBeam, facing: Array, *, full: bool) -> Springs:
+def springs_of(impact: Impact, beam: HermiteBeam, facing: Array, side: float = 1.0, *, full: bool) -> Springs:
     """The springs of a wall that gives way; of a stop in the middle of a half beam, half of them."""
     if impact.wall_stiffness is None:
         return NO_SPRINGS
@@ -231,6 +231,7 @@ def springs_of(impact: Impact, beam: HermiteBeam, facing: Array, *, full: bool) 
         first=first,
         last=last,
         stop=2 * first if begin == end else -1,
+        side=side,
     )
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from bent_beam.checks import MOST_INSTANTS, affordable
 from bent_beam.errors import InputError
 from hermite_fe.active_set import CYCLING, NOT_FINITE, SINGULAR, SOLVED
-from hermite_fe.banded import product, stiff_form
+from hermite_fe.banded import product, stiff_product
 from hermite_fe.compiled import Array, Flags, Places, recompiling
 from hermite_fe.constraints import WORST, ContactLaw
 from hermite_fe.elastic_wall import PEAKS, stored_energy
@@ -105,12 +105,7 @@ class Stepper:
 
     def compile(self) -> None:
         """Compile or load all functions by taking no step, so that the seconds of a run are those of its steps."""
-
-        def no_step() -> None:
-            self._advance(self.step)
-            self.energies()
-
-        recompiling(no_step)
+        recompiling(lambda: (self._advance(self.step), self.energies()))
 
     def _advance(self, step: int) -> tuple[int, int]:
         """What the integrator returns; it may be somebody else's."""
@@ -134,14 +129,14 @@ class Stepper:
         matrices, state = self.problem.matrices, self.state
         found = {
             "kinetic_energy": 0.5 * float(state.v @ product(matrices.M, state.v)),
-            "strain_energy": 0.5 * stiff_form(matrices.K, matrices.K_sums, state.q),
+            "strain_energy": 0.5 * float(state.q @ stiff_product(matrices.K, state.q, matrices.K_sums)),
         }
         if state.branches is not None:
             found["branch_energy"] = branch_energy(state.branches, state.bending)
             found["strain_energy"] += found["branch_energy"]
         if self.integrator.elastic:
             found["contact_energy"] = stored_energy(matrices.springs, state.q)
-            found["contact_energy"] += stored_energy(matrices.second, -state.q)
+            found["contact_energy"] += stored_energy(matrices.second, state.q)
         return found
 
     def energy(self) -> float:

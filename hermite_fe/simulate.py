@@ -183,7 +183,7 @@ def history_of(impact: Impact, model: BeamModel, run: Trajectory, settings: dict
     else:
         sums["contact_energy"] -= sums["contact_energy"][0]
     fields: dict[str, tuple[Sequence[str], NDArray[Any]]] = {
-        "gap": (("time", "x"), -(run.q[:, 0::2] + model.facing[0::2])),
+        "gap": (("time", "x"), model.gap(run.q)),
         "velocity": (("time", "x"), run.v[:, 0::2]),
         **turnings_of(impact, model, run),
         "impulse": (("time", "contact"), run.impulse[:, front]),

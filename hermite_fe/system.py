@@ -26,12 +26,8 @@ DAMPINGS = ("viscous", "material", "absorbed")
 WIDTH = 4  # diagonal and three subdiagonals: what Hermite elements need
 
 
-def _left_out() -> Array:
+def _left_out() -> Any:
     return np.zeros(0)
-
-
-def _left_out_numbers() -> Places:
-    return np.zeros(0, np.int64)
 
 
 @dataclass(frozen=True)
@@ -49,8 +45,8 @@ class ContactRows:
     factors: Array
     gap: Array
     places: Array = field(default_factory=_left_out)
-    rank: Places = field(default_factory=_left_out_numbers)
-    side: Places = field(default_factory=_left_out_numbers)
+    rank: Places = field(default_factory=_left_out)
+    side: Places = field(default_factory=_left_out)
     tributary: Array = field(default_factory=_left_out)
 
     def __post_init__(self) -> None:
@@ -132,8 +128,8 @@ class System:
         under its own name (:data:`hermite_fe.stepping.ENERGIES`).
     load : (powers, dofs), F(t) = Σ_k load[k]·t^k.
     contacts : unilateral constraints; before a wall that gives way by ``springs`` they only say where impulses are
-        recorded. second : springs of a second wall, seen from which the motion is −q. supports : dofs that keep their
-        initial value. bending, branches : of a beam.
+        recorded. second : springs of a second wall, behind the beam. supports : dofs that keep their initial value.
+    bending, branches : of a beam.
 
     Raises ``ValueError`` when shapes disagree, a cause of damping is unknown or named twice, or a support carries a
     constraint of its own.

@@ -112,9 +112,8 @@ def lift_warnings(impact: Impact, model: BeamModel, history: ImpactHistory) -> l
     """
     time = history.time
     end = time[-1]
-    if impact.wall_stiffness is not None:  # it gives back what it took: the zone bounces
-        return []
-    if impact.lifts or end > FIRST_SPREAD * impact.slow_time_scale:
+    bounces = impact.wall_stiffness is not None  # it gives back what it took
+    if bounces or impact.lifts or end > FIRST_SPREAD * impact.slow_time_scale:
         return []
     places = model.system.contacts.places[~model.behind] - impact.first_touch
     nodes, worst, widest = model.beam.nodes - impact.first_touch, 0.0, np.zeros(model.beam.nodes.size, bool)

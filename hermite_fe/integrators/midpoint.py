@@ -2,8 +2,8 @@
 
     M Δv + hC v̄ + hK q̄ = hF̄ − h f(q, q⁺),     q⁺ = q + h v̄,     v̄ = v + ½Δv,     q̄ = q + ½h v̄
 
-with f the mean force of the wall, or of both, f₁(q, q⁺) − f₂(−q, −q⁺),
-over the step: the θ-scheme with θ = ½ (:mod:`hermite_fe.integrators.theta`). Newton's method for Δv, T = ∂f/∂q⁺:
+with f the mean force of the wall, or of both, f₁ − f₂, over the step: the θ-scheme with θ = ½
+(:mod:`hermite_fe.integrators.theta`). Newton's method for Δv, T = ∂f/∂q⁺:
 
     (M + ½hC + ¼h²K + ½h²T) Δv = h[F̄ − K(q + ½hv) − Cv] − h f + ½h²T Δv
 
@@ -38,8 +38,7 @@ class MidpointMemory(NamedTuple):
     """base : S without the wall; tangent : T, (4, dofs); reach : (1,), the last dof of the wall's part in S.
 
     impulse : (rows,), zeros, of a rigid wall; peaks : (walls, 4), of a step. right, solution, new : (dofs,), of a
-    round, its right-hand side, its Δv and q⁺. wall : (walls, dofs), f₁ and f₂; mirrored : (2, dofs), −q and −q⁺;
-    stiff : as T, of the second wall.
+    round, its right-hand side, its Δv and q⁺. wall : (walls, dofs), f₁ and f₂.
     """
 
     vectors: Vectors
@@ -52,8 +51,6 @@ class MidpointMemory(NamedTuple):
     solution: Array
     new: Array
     wall: Array
-    mirrored: Array
-    stiff: Array
 
 
 @dataclass(frozen=True)
@@ -67,10 +64,8 @@ class Midpoint(Integrator):
         n, base, reach = state.q.size, np.zeros_like(problem.solver.S), np.zeros(1, np.int64)
         impulse, peaks = np.zeros_like(state.impulse), np.zeros((2, state.peaks.size))
         right, solution, new = np.zeros((3, n))
-        return MidpointMemory(
-            vectors_of(problem), base, np.zeros((4, n)), reach, impulse, peaks, right, solution, new,
-            np.zeros((2, n)), np.zeros((2, n)), np.zeros((4, n)),
-        )  # fmt: skip
+        tangent, wall = np.zeros((4, n)), np.zeros((2, n))
+        return MidpointMemory(vectors_of(problem), base, tangent, reach, impulse, peaks, right, solution, new, wall)
 
     def advance(
         self, problem: Problem, state: State, memory: MidpointMemory, times: Array, first: int, last: int
@@ -99,7 +94,7 @@ def take_steps(
 def solve_step(problem: Problem, state: State, memory: MidpointMemory, t: float, h: float) -> int:
     """Δv by Newton's method, and what the wall then does; returns the status."""
     springs, second, rows, solver = problem.matrices.springs, problem.matrices.second, problem.rows, problem.solver
-    walls, mirrored, total = memory.wall, memory.mirrored, np.zeros(2)
+    walls, total = memory.wall, np.zeros(2)
     q, v, dv, new, right, x = state.q, state.v, memory.vectors.dv, memory.new, memory.right, memory.solution
     speed, bent, converged = 0.0, 0.0, False
     for i in range(0, v.size, 2):
@@ -107,11 +102,10 @@ def solve_step(problem: Problem, state: State, memory: MidpointMemory, t: float,
     for k in range(MOST_ROUNDS):
         for i in range(q.size):
             new[i] = q[i] + h * (v[i] + 0.5 * dv[i])
+        memory.tangent[:] = 0.0
         total[0], loss, touched = push(springs, q, new, h, walls[0], memory.tangent, memory.peaks[0])
         if second.stiffness > 0.0:
-            mirrored[0], mirrored[1] = -q, -new
-            total[1], more, last = push(second, mirrored[0], mirrored[1], h, walls[1], memory.stiff, memory.peaks[1])
-            memory.tangent[:] += memory.stiff
+            total[1], more, last = push(second, q, new, h, walls[1], memory.tangent, memory.peaks[1])
             loss, touched = loss + more, max(touched, last)
         if converged:
             count_rounds(solver, k)

@@ -112,8 +112,6 @@ class SignoriniPosition(Theta):
     rebounds: ClassVar[bool] = False
     elements_in_first_front: ClassVar[float] = 3.0
 
-    theta: Annotated[float, Quantity("", "θ; 1: implicit Euler", least=0.5, most=1.0)] = 1.0
-
 
 @compiled_within
 def begin_step(
