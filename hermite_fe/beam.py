@@ -31,7 +31,7 @@ from bent_beam.meshes import checked_nodes
 from hermite_fe.banded import stiff_product
 from hermite_fe.compiled import Array
 
-__all__ = ["HermiteBeam", "element_geometric_stiffness", "element_mass", "element_stiffness", "shape_functions"]
+__all__ = ["HermiteBeam", "shape_functions"]
 
 REFINEMENTS = 4  # of a static solution
 SHAPES = [Polynomial(c) for c in ([1, 0, -3, 2], [0, 1, -2, 1], [0, 0, 3, -2], [0, 0, -1, 1])]  # of ξ, N₂ and N₄ over l
@@ -56,35 +56,6 @@ ROTARY = (  # powers of Φ
     [[0, 0, 0, 0], [0, 10, 0, 5], [0, 0, 0, 0], [0, 5, 0, 10]],
 )
 INERTIA = [[156, 22, 54, -13], [22, 4, 13, -3], [54, 13, 156, -22], [-13, -3, -22, 4]]
-
-
-def _elements(tables: Sequence[list[list[int]]], lengths: Array, factor: Array, phi: Array | float = 0.0) -> Array:
-    """``tables``, of the powers of Φ, times ``factor``, both (elements,), with a length for each θ of a row and of a
-    column."""
-    one = np.ones_like(lengths)
-    by_dof, phi = np.stack([one, lengths, one, lengths], axis=1), np.asarray(phi * one)[:, None, None]
-    table = sum(np.array(table) * phi**power for power, table in enumerate(tables))
-    return np.asarray(table * (by_dof[:, :, None] * by_dof[:, None, :]) * factor[:, None, None])
-
-
-def element_stiffness(lengths: Array, bending_stiffness: float, phi: Array | float = 0.0) -> Array:
-    """Kₑ of each element (3.1.5), shape (elements, 4, 4)."""
-    return _elements((BENDING, TURNING), lengths, bending_stiffness / lengths**3 / (1.0 + phi), phi)
-
-
-def element_rotary_inertia(lengths: Array, rotary_inertia: float, phi: Array | float = 0.0) -> Array:
-    """J ∫ θᵀθ dx of each element, shape (elements, 4, 4); J in kg m."""
-    return _elements(ROTARY, lengths, rotary_inertia / (30.0 * lengths) / (1.0 + phi) ** 2, phi)
-
-
-def element_geometric_stiffness(lengths: Array) -> Array:
-    """Gₑ = ∫ N′ᵀN′ dx of each element, shape (elements, 4, 4): stiffness under a unit axial force."""
-    return _elements((SHORTENING,), lengths, 1.0 / (30.0 * lengths))
-
-
-def element_mass(lengths: Array, mass_per_length: float) -> Array:
-    """Mₑ of each element (3.1.8), shape (elements, 4, 4)."""
-    return _elements((INERTIA,), lengths, mass_per_length * lengths / 420.0)
 
 
 @dataclass(frozen=True)
@@ -126,6 +97,14 @@ class HermiteBeam:
             return np.zeros(self.nodes.size - 1)
         return 12.0 * self.bending_stiffness / (self.shear_stiffness * self.lengths**2)
 
+    def elements(self, tables: Sequence[list[list[int]]], factor: Array) -> Array:
+        """``tables``, of the powers of Φ, times ``factor``, (elements,), with a length for each θ of a row and of a
+        column; shape (elements, 4, 4)."""
+        one, phi = np.ones_like(self.lengths), self.phi[:, None, None]
+        by_dof = np.stack([one, self.lengths, one, self.lengths], axis=1)
+        table = sum(np.array(table) * phi**power for power, table in enumerate(tables))
+        return np.asarray(table * (by_dof[:, :, None] * by_dof[:, None, :]) * factor[:, None, None])
+
     def of_slopes(self, element: Array) -> Array:
         """Element matrices, (elements, 4, 4), of the dofs from those of cubics through deflections and slopes."""
         if self.shear_stiffness is None:
@@ -145,18 +124,19 @@ class HermiteBeam:
         return bands
 
     def stiffness(self, weight: Array | None = None) -> Array:
-        """K in lower banded form, shape (4, dofs); ``weight`` (elements,) multiplies each element."""
-        element = element_stiffness(self.lengths, self.bending_stiffness, self.phi)
+        """K (3.1.5) in lower banded form, shape (4, dofs); ``weight`` (elements,) multiplies each element."""
+        element = self.elements((BENDING, TURNING), self.bending_stiffness / self.lengths**3 / (1.0 + self.phi))
         return self.assembled(element if weight is None else element * np.asarray(weight)[:, None, None])
 
     def geometric_stiffness(self) -> Array:
         """∫ N′ᵀN′ dx in lower banded form, shape (4, dofs); times an axial force N, tension positive, it stiffens."""
-        return self.assembled(self.of_slopes(element_geometric_stiffness(self.lengths)))
+        return self.assembled(self.of_slopes(self.elements((SHORTENING,), 1.0 / (30.0 * self.lengths))))
 
     def element_masses(self) -> Array:
-        """Consistent Mₑ, shape (elements, 4, 4)."""
-        translation = self.of_slopes(element_mass(self.lengths, self.mass_per_length))
-        return translation + element_rotary_inertia(self.lengths, self.rotary_inertia, self.phi)
+        """Consistent Mₑ (3.1.8), with J ∫ θᵀθ dx of the sections, shape (elements, 4, 4)."""
+        translation = self.of_slopes(self.elements((INERTIA,), self.mass_per_length * self.lengths / 420.0))
+        turning = self.rotary_inertia / (30.0 * self.lengths) / (1.0 + self.phi) ** 2
+        return translation + self.elements(ROTARY, turning)
 
     def mass(self) -> Array:
         """M in lower banded form, shape (4, dofs)."""
