@@ -105,10 +105,8 @@ def test_without_damping_a_seeded_band_takes_the_place_of_a_number(monkeypatch) 
 
 @pytest.mark.parametrize("path", ["hermite", "exudyn"])
 def test_a_run_until_separation_ends_off_the_wall_on_either_path(path, tmp_path) -> None:
-    kept, asked = (
-        tmp_path / "run.nc",
-        ("simulate", rod(tmp_path, element=0.025), "--path", path, "--error-bars", "drift"),
-    )
+    asked = ("simulate", rod(tmp_path, element=0.025), "--path", path, "--error-bars", "drift")
+    kept = tmp_path / "run.nc"
     found = answered(*asked, "--until", "separation", "--out", kept)
     history = ImpactHistory.load(kept)
     assert has_left(history) and history.array("gap")[-1].min() > 0.0 and found["hits"] is None

@@ -21,13 +21,8 @@ K10 = str(CASES / "thesis_K10.toml")
 
 def test_theory():
     found = answered("theory", "--kappa-over-nu", "0.5", "--alpha", "4")
-    assert list(found) == [
-        "kappa_over_nu", "alpha", "psi", "chi", "axial", "regime", "lambda0", "r0", "lambda1", "r1", "lambda_axial",
-        "r_axial", "peak_moment",
-    ]  # fmt: skip
     assert found["regime"] == "continuous"
-    assert found["lambda0"] == pytest.approx(1.01886591389, rel=1e-11)
-    assert found["r1"] == pytest.approx(10.6928065607, rel=1e-11)
+    assert (found["lambda0"], found["r1"]) == pytest.approx((1.01886591389, 10.6928065607), rel=1e-11)
 
 
 def test_both_paths_say_what_theory_says_and_their_stored_runs_are_drawn_and_compared(tmp_path):
@@ -47,15 +42,6 @@ def test_both_paths_say_what_theory_says_and_their_stored_runs_are_drawn_and_com
     assert max(found["largest_difference"][name] for name in ("total_impulse", "gap")) < 0.01  # two codes, one impact
 
 
-def test_match_prints_rows(monkeypatch, tmp_path):
-    monkeypatch.setenv("BENTBEAM_STORE", str(tmp_path / "store"))
-    words = ("--path", "self_similar", "--kappa-over-nu", "0.5", "--error-bars", "drift")
-    found = answered("match", *words, "--out", tmp_path / "out")
-    assert found["rows"][0]["lambda1"] == {"value": None, "error": None, "theory": None}
-    assert found["rows"][0]["lambda0"]["value"] == pytest.approx(1.01886591389, rel=1e-4)
-    assert {f.name for f in (tmp_path / "out").iterdir()} == {"match.json", "match.csv", "leading.png"}
-
-
 def test_a_match_whose_rows_are_all_refused_is_bad_input_and_still_a_document(capsys):
     pair = ["--set", "exudyn.contact.kind=rigid", "--set", "exudyn.integrator.spectral_radius=.9"]
     assert run(["match", "--path", "exudyn", *pair, "--kappa-over-nu", "0.5", "--json"]) == 2
@@ -69,7 +55,6 @@ def test_a_match_whose_rows_are_all_refused_is_bad_input_and_still_a_document(ca
     [
         (["theory", "--kappa-over-nu", "nan"], "kappa_over_nu"),
         (["theory", "--kappa", "0.5"], "--kappa"),
-        (["predict", "none.toml"], "none.toml"),
         (["simulate", K10, "--path", "abaqus"], "path"),
         (["simulate", K10, "--set", "beam.bending_stiffness=-1.0"], "bending_stiffness must be positive (got -1.0)"),
         (["simulate", K10, "--set", "hermite.contact.kind=nod"], "did you mean node?"),
@@ -82,9 +67,6 @@ def test_a_match_whose_rows_are_all_refused_is_bad_input_and_still_a_document(ca
         (["bounce", "--kappa-over-nu", "2"], "--damping"),
         (["bounce", "--kappa-over-nu", "2", "--damping", "-1"], "damping"),
         (["bounce", "--kappa-over-nu", "-2", "--damping", "0.1"], "kappa_over_nu"),
-        (["bounce", "--kappa-over-nu", "2", "--damping", "0.1", "--path", "self_similar"], "lacks for_whole_beam"),
-        (["study", "colour", K10], "colour"),
-        (["gallery", "fig-9.9"], "fig-9.9"),
         (["frobnicate"], "frobnicate"),
     ],
 )

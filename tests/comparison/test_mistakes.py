@@ -7,7 +7,7 @@ from typing import ClassVar
 
 import numpy as np
 import pytest
-from called import answered, command, refused
+from called import answered, refused
 
 import hermite_fe
 from bent_beam import Impact, InputError
@@ -83,6 +83,3 @@ def test_a_newcomer_starts_from_an_example_and_finds_a_key(tmp_path: Path):
     found = answered("settings", "loss_factor")
     assert {"loss_factor", "loss_frequency"} <= {one["name"] for one in found} and len(found) < 5
     assert "did you mean velocity?" in refused("settings", "velocty")
-    listed = command("--help")[1]
-    order = [listed.index(f"\n  {name} ") for name in ("new", "predict", "bounce", "sweep", "plot", "match", "report")]
-    assert order == sorted(order)

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from called import answered, refused
+from here import CASES
 from histories import rod
 
 from bent_beam import Impact
@@ -17,14 +18,12 @@ from comparison import predicting
 from comparison.doubts import doubts
 from comparison.predicting import CHECKED, COMPARED, LATEST, predict_case
 from comparison.readable import number_from
-from comparison.texts import prediction_text, wall_lines
+from comparison.texts import prediction_text
 from hermite_fe import HermiteFE
-from hermite_fe.integrators import MoreauJean
 from theory import predict
 from theory.stopped_beam import StoppedBeam
 
-CASES = Path(__file__).resolve().parents[2] / "cases"
-K10 = str(CASES / "thesis_K10.toml")
+PIPE = CASES / "drill_pipe.toml"
 
 
 def case_of(impact: Impact) -> Case:
@@ -136,22 +135,16 @@ def test_theory_and_simulation_agree_over_the_longest_time_and_not_at_the_most_i
     assert found == {"from": 0.6, "until": 1.0}
 
 
-def test_text_names_the_force_on_a_wall_that_gives_way_and_what_makes_the_beam_another() -> None:
-    impact = Impact(1.2e6, 29.0, 4.0, 0.002, 2.0, wall_stiffness=2e8)
-    lines = wall_lines(predict(impact).to_dict())
-    assert "kN" in lines[0] and "ends" in lines[-1]
-    assert wall_lines(predict(impact.replace(wall_stiffness=None)).to_dict()) == []
-
-
 def test_theory_only_simulates_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("simulate", "simulate_to_separation"):
         monkeypatch.setattr(HermiteFE, name, lambda *_, **__: pytest.fail("it simulates"))
-    pipe = str(CASES / "drill_pipe.toml")
-    found = answered("predict", pipe, "--time", "0.005", "--time", "0.01", "--theory-only")
+    found = answered("predict", PIPE, "--time", "0.005", "--time", "0.01", "--theory-only")
     one, other = found["times"]
     assert one["impulse"] < other["impulse"] and 3.5 < other["half_contact_length"] < 4.0 and other["valid"]
     assert found["agreement"] is None and "simulation" not in one
     assert found["whole_impact"] is None
+    mistaken = ("--set", "hermite.integrator.kind=nonsense")
+    assert "hermite.integrator.kind" in refused("predict", PIPE, "--theory-only", *mistaken)
 
 
 def test_a_moment_that_the_theory_does_not_know_is_said_to_be_missing() -> None:
@@ -160,23 +153,6 @@ def test_a_moment_that_the_theory_does_not_know_is_said_to_be_missing() -> None:
     assert found.to_dict()["peak_moment"] is None and "(theory): not known" in str(found)
 
 
-def test_the_tables_of_the_case_are_those_of_the_simulation(monkeypatch: pytest.MonkeyPatch) -> None:
-    used, simulate = [], HermiteFE.simulate
-
-    def recorded(method: HermiteFE, *given: Any, **named: Any) -> Any:
-        used.append(method.integrator)
-        return simulate(method, *given, **named)
-
-    monkeypatch.setattr(HermiteFE, "simulate", recorded)
-    monkeypatch.setattr("bent_beam.method.LONGEST", 0.005)
-    tables = ("integrator.kind=moreau_jean", "integrator.theta=0.6", "refine=0.25")
-    answered("predict", K10, "--time", "1e-5", *(word for one in tables for word in ("--set", f"hermite.{one}")))
-    assert len(used) >= 2 and all(isinstance(one, MoreauJean) and one.theta == 0.6 for one in used)
-    assert "hermite.integrator.kind" in refused(
-        "predict", K10, "--theory-only", "--set", "hermite.integrator.kind=nonsense"
-    )
-
-
 @pytest.mark.parametrize("time", ["-1", "nan", "1e300"])
 def test_an_impossible_time_is_laid_to_its_option(time: str) -> None:
-    assert refused("predict", K10, "--time", time).startswith("error: --time: ")
+    assert refused("predict", PIPE, "--time", time).startswith("error: --time: ")
