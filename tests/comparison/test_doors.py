@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from here import CASES
 from histories import history_of
 
 from bent_beam import Impact, ImpactHistory
@@ -24,30 +25,23 @@ SEED = 20261123
 NAMES = {"half_contact_length": "half_contact_length", "impulse": "total_impulse"}
 
 
-def drawn(folder: Path, count: int, coarse: bool) -> Iterator[Case]:
+def drawn(count: int, *laid_over: str) -> Iterator[Case]:
     """Tubes of a seed: rigid and elastic walls, tension, elastic bows, gravity, light to heavy damping."""
     rng = random.Random(SEED)
     for k in range(count):
         beam = {"length": rng.uniform(1.0, 5.0), "sagitta": 10.0 ** rng.uniform(-3.5, -2.0)}
         beam["damping_ratio"] = 10.0 ** rng.uniform(-2.5, -1.0)
-        impact, wall = {"velocity": 10.0 ** rng.uniform(-0.7, 0.5)}, {}
+        tables = {"beam": beam, "impact": {"velocity": 10.0 ** rng.uniform(-0.7, 0.5), "gravity": 0.0}, "wall": {}}
         match k % 4:
             case 1:
-                wall = {"stiffness": 10.0 ** rng.uniform(6.0, 8.0), "damping_ratio": rng.uniform(0.0, 0.7)}
+                tables["wall"] = {"stiffness": 10.0 ** rng.uniform(6.0, 8.0), "damping_ratio": rng.uniform(0.0, 0.7)}
             case 2:
-                beam |= {"axial_force": rng.uniform(100.0, 2000.0)}
+                beam["axial_force"] = rng.uniform(100.0, 2000.0)
             case 3:
-                beam |= {"natural_curvature": 0.0}
-                impact |= {"gravity": 9.81}
-        tables = {"section": {"kind": "pipe", "outer_diameter": 0.05, "inner_diameter": 0.044, "youngs_modulus": 2.1e11,
-                              "density": 7850.0}, "beam": beam, "impact": impact, "wall": wall}  # fmt: skip
-        text = "\n".join(
-            line for name, table in tables.items() if table
-            for line in (f"[{name}]", *(f"{key} = {value!r}".replace("'", '"') for key, value in table.items()))
-        )  # fmt: skip
-        file = folder / f"case-{k}.toml"
-        file.write_text(text + ("\n[hermite]\nrefine = 0.4\n" if coarse else "\n"))
-        yield load_case(file)
+                beam["natural_curvature"] = 0.0
+                tables["impact"]["gravity"] = 9.81
+        said = [f"{table}.{key}={value!r}" for table, values in tables.items() for key, value in values.items()]
+        yield load_case(CASES / "tube.toml", [*said, *laid_over])
 
 
 def same(one: dict[str, Any], other: dict[str, Any]) -> bool:
@@ -91,15 +85,15 @@ def test_every_door_warns_of_a_steep_bow(tmp_path: Path) -> None:
             assert said == steep, type(found)
 
 
-def test_every_door_gives_the_same_number_with_the_same_bar(tmp_path: Path) -> None:
-    *_, elastic, tensioned = drawn(tmp_path, 3, coarse=True)
+def test_every_door_gives_the_same_number_with_the_same_bar() -> None:
+    *_, elastic, tensioned = drawn(3, "hermite.refine=0.4")
     check(elastic, 0.02)
     check(tensioned, 0.002)
 
 
-def test_one_run_without_damping_has_no_number_of_the_whole_impact(tmp_path: Path) -> None:
+def test_one_run_without_damping_has_no_number_of_the_whole_impact() -> None:
     """It is a band, which ``bounce`` gives; beside it a mean of some runs would be another answer."""
-    case = next(drawn(tmp_path, 1, coarse=True))
+    case = next(drawn(1, "hermite.refine=0.4"))
     undamped = replace(case, impact=case.impact.replace(damping=0.0))
     found = simulate_case(undamped, "hermite", until=None).to_dict()
     for name in ("restitution", "total_impulse", "half_contact_length"):
@@ -130,15 +124,13 @@ def test_times_and_places_that_have_moved_are_a_difference_of_a_run_that_is_repe
 
 
 @pytest.mark.verify
-def test_twenty_beams_of_a_seed_are_answered_alike_at_every_door(tmp_path: Path) -> None:
+def test_twenty_beams_of_a_seed_are_answered_alike_at_every_door() -> None:
     rng = random.Random(SEED + 1)
-    for case in drawn(tmp_path, 20, coarse=False):
+    for case in drawn(20):
         check(case, 10.0 ** rng.uniform(-3.0, -0.5))
 
 
 def test_a_wall_that_gives_way_and_is_not_yet_touched_has_no_place_of_its_force() -> None:
-    case = load_case(
-        Path(__file__).parents[2] / "cases" / "tube_between_plates.toml", ["wall.clearance=2e-4", "wall.opposite=2e-4"]
-    )
+    case = load_case(CASES / "tube_between_plates.toml", ["wall.clearance=2e-4", "wall.opposite=2e-4"])
     said = run_text(simulate_case(case, "hermite", until=3e-4, error_bars="drift", save=20).to_dict())
     assert "largest force  " in said and "nan" not in said.lower() and "None" not in said
