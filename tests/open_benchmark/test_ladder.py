@@ -1,29 +1,17 @@
 """This project's integrators against the closed forms of the ladder."""
 
-import re
-
 import pytest
 
 from tests.open_benchmark.ladder import INTEGRATORS, RUNGS, cell
 
 QUICK = ("Moreau–Jean θ = ½", "Signorini, new position")
 NAMES = [pytest.param(name, marks=() if name in QUICK else pytest.mark.verify) for name in INTEGRATORS]
-REFUSES = {"ball": "Signorini|penalty|massless", "stopped-beam": "massless"}  # an impact law, damping
-ELASTIC = [name for name in NAMES if not re.search(REFUSES["ball"], name.values[0])]
-
-
-@pytest.mark.parametrize("name", ELASTIC)
-def test_ten_elastic_impacts_of_a_ball_are_found_to_first_order(name):
-    make = INTEGRATORS[name]
-    coarse, fine = (RUNGS["ball"](make, refine) for refine in (1, 8))
-    assert fine[0] < 0.4 * coarse[0] < 0.03
-    assert fine[1] == pytest.approx(1.0, abs=0.05), "an elastic impact keeps the ball's energy"
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_the_wall_gives_the_impulse_of_the_closed_form(name):
     for rung in ("bar", "stopped-beam"):
-        if re.search(REFUSES.get(rung, "$^"), name):
+        if rung == "stopped-beam" and "massless" in name:  # refuses damping
             continue
         (coarse, _), (fine, energy) = (RUNGS[rung](INTEGRATORS[name], refine) for refine in (1, 4))
         assert fine < 0.7 * coarse < 0.02, rung
