@@ -1,6 +1,5 @@
 """The studies of error bars, of methods and of whole beams: they draw what they say, count what misses, and keep it."""
 
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -34,17 +33,6 @@ def test_a_bar_that_misses_is_counted_and_kept_as_a_method_that_can_be_read(tmp_
     assert methods_from_file(file) == methods_from_file(other) == [asked[1].question.method]
     assert f"--kappa-over-nu {asked[1].kappa_over_nu!r}" in file.read_text() and "off by 1.00e-02" in file.read_text()
     assert f"--duration {asked[1].duration!r}" in file.read_text()
-
-
-def test_half_of_the_rows_are_about_loads_up_to_those_of_a_slow_beam_under_gravity_and_all_end_at_another_time():
-    some = drawn(7, 200)
-    sizes = [max(map(abs, one.first)) for one in some if one.first]
-    assert 80 < len(sizes) < 120 and min(sizes) < 1.0 and max(sizes) > 100.0
-    assert len({one.duration for one in some}) == 200
-    assert all(one.question.first == one.first and one.question.duration == one.duration for one in some)
-    load = next(one.first for one in some if one.first)
-    said = next(one for one in some if one.first).text(Path("x.toml"), "")
-    assert f"--first-order={','.join(map(repr, load))}" in said
 
 
 @pytest.mark.parametrize(

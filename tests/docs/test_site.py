@@ -76,13 +76,3 @@ def test_formulas_are_drawn(chromium: Any, site: Path, page: str, least: int, wi
         histogram = Image.open(io.BytesIO(formula.screenshot_as_png)).convert("L").histogram()
         ink = sum(histogram[:128]) / sum(histogram)
         assert 0.02 < ink < 0.6, (formula.get_attribute("aria-label"), ink)
-
-
-def test_tutorial_has_its_outputs(chromium: Any, site: Path) -> None:  # noqa: F811
-    browser = opened(chromium, (site / "tutorial.html").as_uri())
-    assert ask(browser, "document.querySelectorAll('.jp-OutputArea-output').length") >= 5
-    pictures = ask(
-        browser,
-        "[...document.querySelectorAll('.jp-OutputArea img')].map(e => e.naturalWidth * (e.src.startsWith('data:')))",
-    )
-    assert pictures and min(pictures) > 300

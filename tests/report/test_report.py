@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 from report_fixtures import KEPT, impacts, lost, pipe, row, rows
 
-from bent_beam.measure.force_map import force_map, spread
-from bent_beam_programs.report.impacts import FRAMES, SHOWN, acceleration_rows, energies, kept_instants, theory_of
+from bent_beam_programs.report.impacts import FRAMES, SHOWN, acceleration_rows, energies, theory_of
 from bent_beam_programs.report.page import Content, render
 from bent_beam_programs.report.rows import (
     PATHS,
@@ -29,7 +28,6 @@ from comparison.methods import methods_of
 from comparison.predicting import predict_case
 from comparison.texts import prediction_text
 from hermite_fe import HermiteFE
-from self_similar_fe import ExpandingMesh, SelfSimilarFE
 
 LABELS = ("Hermite", "Self-similar", "Exudyn")
 VOID = {"meta", "link", "br", "img", "input", "line", "circle", "rect", "path"}
@@ -219,13 +217,3 @@ def test_acceleration_into_the_wall_spreads_the_zone_and_one_away_from_it_lifts_
         assert (pressed["uniform"], pressed["theory"], released["theory"]) == ("1.00", "1.00", "0.00")
         assert pressed["zone"].startswith("+") and pressed["reaction"].startswith("+")
         assert released["zone"].startswith("−") and released["reaction"].startswith("−")
-
-
-def test_map_holds_the_whole_impulse_of_one_side() -> None:
-    history = SelfSimilarFE(mesh=ExpandingMesh(decades=2.0)).simulate(SHOWN[1].impact, end_time=0.1, save=60)
-    kept = kept_instants(history.time, 10)
-    edges = np.linspace(0.0, 1.0, 41)
-    gathered = (force_map(history, kept, edges) * np.diff(edges)).sum(axis=1) * np.diff(history.time[kept])
-    assert np.allclose(gathered, np.diff(history.array("impulse").sum(axis=1)[kept]), rtol=1e-9)
-    bins = spread(np.array([0.0, 0.1, 0.4, 0.5]), np.array([1.0, 2.0, 0.5, 4.0]), np.linspace(0.0, 0.6, 7))
-    assert bins.sum() == pytest.approx(7.5) and bins[-1] == pytest.approx(0.0, abs=1e-12)
