@@ -137,7 +137,6 @@ def test_the_command_gives_numbers_with_bars_figures_and_the_stress_of_the_large
 
 
 def test_a_contact_or_integrator_that_is_stated_is_that_of_every_run_of_a_band() -> None:
-    """Drawn runs took nodes and Moreau–Jean in their place, without a word."""
     stated = HermiteFE(contact=MiddleContact(), integrator=SignoriniPosition())
     every = Question(problem(2.0, 0.0), stated, band=(3, 1)).companions().values()
     assert [(type(one.contact), type(one.integrator)) for _, one in every] == [(MiddleContact, SignoriniPosition)] * 2
@@ -159,7 +158,7 @@ def test_runs_whose_processes_die_are_told_and_one_that_is_left_is_no_band() -> 
 
 
 def test_bounce_json_is_the_document_that_was_printed(tmp_path) -> None:
-    each = [f"{path}.mesh={{kind='uniform', element_length=0.05}}" for path in ("hermite", "exudyn")]
+    each = [f"{path}.mesh={{kind='uniform', element_length=0.1}}" for path in ("hermite", "exudyn")]
     both = ("--path", "hermite", "--path", "exudyn", "--damping", "0.01", "--set", each[0], "--set", each[1])
     printed = answered("bounce", "--kappa-over-nu", "2", *both, "--out", tmp_path / "out")
     written = json.loads((tmp_path / "out" / "bounce.json").read_text())

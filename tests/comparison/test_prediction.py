@@ -72,7 +72,6 @@ def test_they_agree_as_long_as_the_theory_is_within_2_percent_of_the_stopped_bea
 
 
 def test_a_time_beyond_those_that_are_simulated_leaves_the_others_compared() -> None:
-    """It said that theory and simulation agree nowhere, where nothing had been compared."""
     impact = Impact.whole_beam(0.5, relative_damping=1e-2)
     for times in ([2e-3], [2e-3, 1.1 * LATEST]):
         found = predict_case(case_of(impact), times, whole=False)
@@ -106,7 +105,7 @@ def test_a_rod_under_its_weight_leaves_with_what_is_known_of_it(tmp_path: Path) 
 
 def test_a_damping_that_is_not_stated_is_answered_over_three_and_one_that_is_stated_once(tmp_path: Path) -> None:
     """The numbers are those of the largest stress; where damping is stated nothing else is run."""
-    file = rod(tmp_path, element=0.016)
+    file = rod(tmp_path, element=0.05)
     file.write_text(file.read_text().replace("damping_ratio", "# damping_ratio"))
     asked = ("bounce", file)
     found = answered(*asked)

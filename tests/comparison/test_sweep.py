@@ -78,7 +78,6 @@ def test_what_is_no_sweep_is_refused_by_key_and_value(case, vary, said):
 
 
 def test_two_keys_that_say_the_same_are_no_sweep(case):
-    """The later one would replace the earlier, whose values would then be names of nothing."""
     said = refused("sweep", case, "--jobs", 1, "--vary", "impact.velocity=1,2", "--vary", "impact.drop_height=1,2")
     assert "impact.velocity" in said and "says the same" in said
 

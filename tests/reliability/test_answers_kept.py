@@ -234,7 +234,6 @@ def test_histories_without_moments_of_the_middle_are_compared(tmp_path):
 
 
 def test_a_reading_of_somebody_s_own_is_kept_with_its_code(tmp_path, monkeypatch):
-    """Its name alone was in the key: an edited one got the numbers of the one before."""
     monkeypatch.syspath_prepend(tmp_path)
     (tmp_path / "own_reading.py").write_text("def read(history):\n    return {}\n")
     read = importlib.import_module("own_reading").read
