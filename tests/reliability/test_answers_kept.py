@@ -14,10 +14,8 @@ from called import MAIN, answered, command, refused, started
 from here import CASES
 from strangers import Plain, Unlabelled
 
-from bent_beam import Impact
 from bent_beam import method as methods
 from bent_beam.files import write_atomically
-from bent_beam.history import ImpactHistory
 from bent_beam.measure.reduction import peak_moment
 from comparison import store as store_module
 from comparison.command_line import __main__ as start
@@ -225,12 +223,6 @@ def test_a_file_follows_a_link_and_loses_no_text_to_a_surrogate(tmp_path):
     (tmp_path / "link").symlink_to(tmp_path / "there")
     write_atomically(tmp_path / "link", "a\udc80b")
     assert (tmp_path / "link").is_symlink() and (tmp_path / "there").read_text() == "a\\udc80b"
-
-
-def test_histories_without_moments_of_the_middle_are_compared(tmp_path):
-    history = HermiteFE().simulate(Impact.dimensionless(2.0), end_time=0.01, save=20)
-    without = ImpactHistory.of(history.dataset.drop_vars("largest_midspan_moment"))
-    assert peak_moment(without).midspan == pytest.approx(peak_moment(history).midspan, rel=0.1)
 
 
 def test_a_reading_of_somebody_s_own_is_kept_with_its_code(tmp_path, monkeypatch):

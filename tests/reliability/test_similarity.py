@@ -1,8 +1,8 @@
 """A physical problem and its dimensionless twin are one problem, and the same run again is the same, bit for bit."""
 
-import functools
 import math
 import random
+from functools import cache, partial
 
 import numpy as np
 import pytest
@@ -71,21 +71,10 @@ def test_theory_gives_twins_the_same_answer_to_1e_10(scales, loads):
         assert getattr(b.times[0], name) / unit == pytest.approx(getattr(a.times[0], name), rel=1e-10)
 
 
-def hermite(impact, integrator, **more):
+def hermite(scheme, step, impact, full_beam=False, **more):
     end, mesh = 0.1 * impact.time_scale, UniformMesh(0.05 * impact.length_scale)
-    return hermite_fe.simulate(impact, end_time=end, mesh=mesh, integrator=integrator, save=10, **more)
-
-
-def signorini(impact):
-    return hermite(impact, SignoriniPosition(time_step=1e-5 * impact.time_scale, growth=5e-3))
-
-
-def moreau_jean(impact):
-    return hermite(impact, MoreauJean(time_step=1e-4 * impact.time_scale), full_beam=True)
-
-
-def generalised_alpha(impact):
-    return hermite(impact, NonsmoothGeneralizedAlpha(time_step=2e-3 * impact.time_scale, growth=0.0))
+    steps = scheme(time_step=step * impact.time_scale, **more)
+    return hermite_fe.simulate(impact, end_time=end, mesh=mesh, integrator=steps, save=10, full_beam=full_beam)
 
 
 def expanding(impact):
@@ -103,9 +92,9 @@ def exudyn(impact, **parts):
 # shear and large rotations add a digit. The gap to a circle is a difference of lengths of the order of its radius,
 # thousands of times what the beam deflects. A hundred times as much is let pass.
 RUNS = {
-    "hermite": (signorini, 30.0, {}, 1e-10),
-    "hermite, full beam": (moreau_jean, 10.0, {}, 1e-10),
-    "hermite, generalised-α": (generalised_alpha, 30.0, {}, 1e-10),
+    "hermite": (partial(hermite, SignoriniPosition, 1e-5, growth=5e-3), 30.0, {}, 1e-10),
+    "hermite, full beam": (partial(hermite, MoreauJean, 1e-4, full_beam=True), 10.0, {}, 1e-10),
+    "hermite, generalised-α": (partial(hermite, NonsmoothGeneralizedAlpha, 2e-3, growth=0.0), 30.0, {}, 1e-10),
     "expanding mesh": (expanding, 30.0, {}, 1e-8),
     "exudyn": (exudyn, 5.0, LOADS, 1e-10),
 }
@@ -117,12 +106,12 @@ EXUDYN = {
     "a circle for a wall": (dict(contact=SegmentFriction(friction=0.2)), 1e-6),
 }
 for name, (parts, near) in EXUDYN.items():
-    RUNS[f"exudyn, {name}"] = (functools.partial(exudyn, **parts), 5.0, LOADS, near)
+    RUNS[f"exudyn, {name}"] = (partial(exudyn, **parts), 5.0, LOADS, near)
 QUICK = ("hermite", "hermite, generalised-α", "expanding mesh", "exudyn")
 KINDS = [kind if kind in QUICK else pytest.param(kind, marks=pytest.mark.verify) for kind in RUNS]
 
 
-@functools.cache
+@cache
 def simulated(kind):
     run, length, loads, _ = RUNS[kind]
     return run(Impact.dimensionless(0.5, length=length, **loads))
