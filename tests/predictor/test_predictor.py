@@ -191,12 +191,8 @@ def page_and_bounce(inputs: list[dict[str, Any]], share: float = 1.0) -> tuple[i
         return {wrong: Beam.complaints(i), text: Case.toml(i, b), numbers: Answer.numbers(p, runs)}; })""",
         inputs,
     )
-    names = {
-        "restitution": "restitution",
-        "lastContact": "last_contact",
-        "moment": "peak_moment",
-        "force": "peak_force",
-    }
+    names = {"restitution": "restitution", "lastContact": "last_contact"}
+    names |= {"moment": "peak_moment", "force": "peak_force"}
     compared, missed = 0, []
     for row in (row for row in found if not row["wrong"]):
         case = case_from_tables(tomllib.loads(row["text"]))

@@ -136,9 +136,7 @@ def impact(**changes):
 
 MISREAD = {
     "transposed": changed("gap", lambda d, v, a: (d[::-1], v.T, a)),
-    "a field of one instant": changed("gap", lambda d, v, a: (("x",), v[0], a)),
     "an impulse at the nodes": changed("impulse", lambda d, v, a: (("time", "x"), v, a)),
-    "an energy of nodes": changed("kinetic_energy", lambda d, v, a: (("x",), v, a)),
     "millimetres": changed("gap", lambda d, v, a: (d, 1e3 * v, a | {"units": "mm"})),
     "nodes from right to left": changed("x", lambda d, v, a: (d, v[::-1], a)),
     "a time before the impact": changed("time", lambda d, v, a: (d, v - 0.05, a)),
@@ -187,7 +185,6 @@ CRAFTED = {
     "no such path": dict(path="../../etc"),
     "an unknown class": dict(mesh={"kind": "Popen", "args": ["true"]}),
     "a class without a name": dict(mesh={"kind": ["UniformMesh"]}),
-    "a mesh of nothing": dict(mesh={"kind": "UniformMesh", "element_length": 0.0}),
     "a mesh too fine": dict(mesh={"kind": "UniformMesh", "element_length": 1e-300}),
     "steps without end": dict(integrator={"kind": "SignoriniPosition", "time_step": 1e-300, "growth": 0.0}),
     "a text for a time": dict(end_time="later"),
