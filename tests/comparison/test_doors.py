@@ -86,14 +86,14 @@ def test_every_door_warns_of_a_steep_bow(tmp_path: Path) -> None:
 
 
 def test_every_door_gives_the_same_number_with_the_same_bar() -> None:
-    *_, elastic, tensioned = drawn(3, "hermite.refine=0.4")
+    *_, elastic, tensioned = drawn(3, "hermite.refine=0.25")
     check(elastic, 0.02)
     check(tensioned, 0.002)
 
 
 def test_one_run_without_damping_has_no_number_of_the_whole_impact() -> None:
     """It is a band, which ``bounce`` gives; beside it a mean of some runs would be another answer."""
-    case = next(drawn(1, "hermite.refine=0.4"))
+    case = next(drawn(1, "hermite.refine=0.25"))
     undamped = replace(case, impact=case.impact.replace(damping=0.0))
     found = simulate_case(undamped, "hermite", until=None).to_dict()
     for name in ("restitution", "total_impulse", "half_contact_length"):
