@@ -213,12 +213,6 @@ def test_the_tables_hold_the_thesis_counts_and_the_theory() -> None:
 
 
 @SLOW
-def test_a_pulled_beam_lifts_off() -> None:
-    lifts = [number("fig-2.18", f"middle off the wall at τ = {tau}") for tau in (0.1, 0.25, 0.5)]
-    assert 0.0 < lifts[0] < lifts[1] < lifts[2] < 1e-2
-
-
-@SLOW
 def test_steps_are_those_of_the_thesis_and_a_square_mesh_shrinks_along_the_zone_and_rests_for_shorter_times() -> None:
     assert [int(r["steps"]) for r in cells("table-3.1")[:5]] == [25, 250, 500, 1000, 2500]
     x, sizes = curve("fig-3.13", "element length", "b")
