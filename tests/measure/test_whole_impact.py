@@ -149,6 +149,17 @@ def test_a_beam_that_has_left_does_not_return_and_one_that_swings_as_wide_as_it_
         assert not cannot_return(impact.replace(acceleration=1.0), x, flat + 9.0, up, rigid)
 
 
+def test_a_beam_that_turns_comes_back_with_the_end_that_turns_to_the_wall_faster_than_it_leaves() -> None:
+    x, impact = np.linspace(-1.0, 1.0, 401), Impact.whole_beam(2.0)
+    bow, up, spin = 0.5 * 2.0 * x**2, 0.5, 0.3
+    for turns, back in ((0.99 * up, False), (1.01 * up, True), (-1.01 * up, True)):
+        energy = 0.5 * 2.0 * (up**2 + turns**2 / 3.0)
+        assert cannot_return(impact, x, bow + 0.2 + 0.1 * x, -up - turns * x, energy) != back
+    energy = 0.5 * 2.0 * (up**2 + spin**2 / 3.0)
+    for tilt, back in ((0.88, False), (0.9, True)):  # a tilted bow of this height is at the wall from √0.8 on
+        assert cannot_return(impact, x, bow + 0.2 + tilt * x, -up - spin * x, energy) != back
+
+
 def test_breaks_shorter_than_the_shortest_separation_are_none() -> None:
     impulse, time = np.array([0.0, 1.0, 2.0, 2.0, 3.0, 3.0, 3.0, 3.0, 4.0, 4.0]), np.arange(10.0)
     assert pushes(time, impulse, 0.5) == [(0, 2), (3, 4), (7, 8)]

@@ -70,7 +70,9 @@ def test_energy_of_the_fast_part_is_the_work_of_the_wall(half):
     budget = simulate_expanding(tense, QUICK, end_time=1.0).energy_budget()
     assert abs(budget["defect"]) < 3e-5 * budget["work_of_loads"]
     heavy = Impact(2.0, 8.0, 600.0, 0.5 / 3.0, 1.0 / 6.0)  # κ/ν = 0.5
-    budget = simulate_expanding(heavy, QUICK, end_time=0.1 * heavy.time_scale).energy_budget()
+    history = simulate_expanding(heavy, QUICK, end_time=0.1 * heavy.time_scale)
+    assert history.time[-1] == pytest.approx(0.1 * heavy.time_scale)
+    budget = history.energy_budget()
     assert abs(budget["defect"]) < 1e-5 * budget["work_of_loads"]
 
 
