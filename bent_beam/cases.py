@@ -22,6 +22,7 @@ from bent_beam.errors import InputError, unknown_key
 from bent_beam.fields import key_of, made_from, part_from_table, part_or_auto
 from bent_beam.impact import Impact
 from bent_beam.meshes import MESHES, Mesh
+from bent_beam.modes import lowest_frequency
 from bent_beam.section import SECTIONS, Section
 from bent_beam.tables import TABLES, WAYS, BeamTable, ImpactTable, RunTable, WallTable, in_keys
 
@@ -112,6 +113,7 @@ def case_from_tables(tables: Mapping[str, Any]) -> Case:
     except ValueError as error:
         raise InputError(in_keys(str(error))) from None
     _check_buckling(impact)
+    _check_frequency(arrival.frequency, impact)
     return Case(
         title=tables.get("title", ""),
         impact=impact,
@@ -133,6 +135,19 @@ def _end_time(run: RunTable, impact: Impact) -> float:
     except ValueError as error:
         raise InputError(f"run.{'end_time' if run.end_time is not None else 'duration'}: {error}") from None
 
+
+def _check_frequency(given: float | None, impact: Impact) -> None:
+    """Raise :class:`InputError` where a beam swings up to its wall at another frequency than is given."""
+    own = lowest_frequency(impact) if given and impact.wall_clearance else 0.0
+    if given and own and abs(given / own - 1.0) > OWN:
+        raise InputError(
+            f"impact.frequency = {given!r} is not that of the lowest mode, {own:.4g} Hz, in which the beam swings to "
+            f"its wall, {given / own:.3g} times as far as impact.amplitude with this velocity; give "
+            "impact.velocity, of the middle as it passes its rest position"
+        )
+
+
+OWN = 0.1  # of a frequency: closer it is the lowest mode's
 
 BUCKLING = {
     ("free", "free"): 1.0,  # of a bow at rest

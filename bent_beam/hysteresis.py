@@ -22,14 +22,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.errors import InputError
-from bent_beam.loads import CLAMPED
 from bent_beam.scales import Scales
 
 __all__ = ["FIRST_MODE", "Branches", "branches_of", "check_loss", "converges", "first_mode"]
 
 Array = NDArray[np.float64]
 
-FIRST_MODE = CLAMPED["clamped"]  # the free–free beam has the frequencies of the clamped one
+FIRST_MODE = 4.730040744862704  # cos β cosh β = 1, of a free–free beam as of a clamped one
 BELOW, ABOVE, EARLIEST = 0.1, 1e6, 1e-4  # of the first mode, of the first mode, t*
 PER_DECADE, MARGIN = 1.5, math.sqrt(10.0)  # branches, and how far they go beyond either end of the range
 WEIGHT_OF_LOSS = 100.0  # weight of the loss frequency over that of any other

@@ -56,7 +56,7 @@ class Scales(Part):
     ] = None
     rotation: Annotated[float, Load("rad/s", "rocking about the middle (runs of the full beam)", powers=(1, 1))] = 0.0
     first_touch: Annotated[float, Quantity("m", "the bow's apex from the middle (runs of the full beam)")] = 0.0
-    opposite_wall: Annotated[float | None, Quantity("m", "distance of a second wall behind the apex", above=0.0)] = None
+    opposite_wall: Annotated[float | None, Quantity("m", "of a second, flat wall behind the apex", above=0.0)] = None
     wall_stiffness: Annotated[
         float | None, Feature("N/m²", "k per length of beam, of a stop in N/m; rigid unless given", above=0.0)
     ] = None

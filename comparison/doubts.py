@@ -21,6 +21,8 @@ __all__ = [
 
 Energies = Mapping[str, float | None]
 
+LIGHTEST = {"youngs_modulus": (1e5, "Pa"), "density": (5.0, "kg/m³")}  # of materials, and units
+STUBBY = 15.0  # radii of gyration: some four depths
 STEEP = 0.3  # slope of the bow at the beam's ends from which the small-slope theory deserves a warning
 STRAIGHTENED = 0.1  # N L²/(π² EI) from which a tension deserves one
 NOTABLE_LOSS = 0.02  # of the initial energy, likewise
@@ -39,12 +41,25 @@ def doubts(impact: Impact, section: Section | None) -> list[str]:
             f"the bow's own slope at its ends is {slope:.2g}: theory and simulation are for small slopes (at 0.5 the "
             "force is about 10 % larger)"
         )
+    found += [
+        f"section.{name} = {value:g} {unit} is less than of any foam: is it in {unit}?"
+        for name, (least, unit) in LIGHTEST.items()
+        if (value := getattr(section, name, None)) is not None and value < least
+    ]
+    radius = math.sqrt(impact.rotary_inertia / impact.mass_per_length)  # of gyration, where it is known
+    if impact.length < STUBBY * radius:
+        found.append(
+            f"the beam is {impact.length / radius:.2g} radii of gyration of its section long, and what is said is of "
+            "slender beams; are the sizes of the section in m?"
+        )
     alike = not (impact.off_centre or impact.wall_in_part)
     if impact.relative_curvature == 0.0 and alike and impact.wall_stiffness is None:
         found.append(
             "a straight beam touches a rigid wall with its whole length at once: its rebound is that of the contact "
             "law, from 0 to 1, not of the beam; give it a bow, or the wall a stiffness"
         )
+    if impact.opposite_wall is not None and impact.wall_curvature:
+        found.append("the second wall is flat: along a wall with a curvature a hole of one width has another shape")
     force, pull = impact.axial_force, impact.axial_force * impact.length**2
     pull /= math.pi**2 * impact.bending_stiffness
     held = impact.tension_direction == "tangent" and not impact.acceleration

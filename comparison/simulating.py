@@ -8,6 +8,8 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from bent_beam.cases import Case
 from bent_beam.history import REFLECTED, ImpactHistory
 from bent_beam.hysteresis import converges
@@ -72,6 +74,7 @@ class Simulated:
             "steps": history.steps,
             "seconds": history.seconds,
             "time": end,
+            "clearance": impact.wall_clearance,
             "half_contact_length": self._beside("half_contact_length", row.half_contact_length if row else None),
             "total_impulse": self._beside("impulse", row.impulse if row else None),
             "restitution": self._beside("restitution", None),
@@ -97,7 +100,7 @@ class Simulated:
             **{name: getattr(balance, name) for name in ("gap_of_push", "penetration", "middle_slope")},
             "hits": [asdict(hit) for hit in hits(history)] if several else None,
             "warnings": [
-                *doubts(impact, section), *history.warnings, *self._reflected(infinite, end),
+                *doubts(impact, section), *self._not_reached(), *history.warnings, *self._reflected(infinite, end),
                 *loss_warnings(energy), *balance.warnings,
                 *wide_bars(self.numbers), *([BAND] if until is None and not converges(impact) else ()), *self.runs.lost,
             ],
@@ -110,6 +113,11 @@ class Simulated:
     def _with_error(self, *names: str) -> dict[str, float | None]:
         found = {name: self.numbers.get(name, MISSING) for name in names}
         return {key: v for name, one in found.items() for key, v in ((name, one.value), (f"{name}_error", one.bar))}
+
+    def _not_reached(self) -> list[str]:
+        """Of a beam that swings up to its wall."""
+        clearance, pushed = self.history.impact.wall_clearance, np.any(self.history.array("total_impulse"))
+        return [] if pushed or not clearance else [f"the beam does not reach its wall, {clearance:g} m away"]
 
     def _reflected(self, infinite: Prediction | None, end: float) -> list[str]:
         """From when on waves are back from the ends, where that ends the theory and the run does not say so."""

@@ -1,9 +1,9 @@
-"""Answers for a reader: a prediction, a whole impact, hits, a run; in kN, MPa, ms, with the digits that the error bar
+"""Answers for a reader: a prediction, a whole impact, a run; in kN, MPa, ms, with the digits that the error bar
 carries. Each is made of the document that ``--json`` prints."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 from bent_beam.measure.numbers import Number
@@ -20,9 +20,9 @@ from comparison.readable import (
     text_table,
     unit_for,
 )  # fmt: skip
-from comparison.whole_numbers import BETWEEN_WALLS, HIT, WHOLE
+from comparison.whole_numbers import BETWEEN_WALLS, WHOLE, hits_table
 
-__all__ = ["bounce_text", "hits_table", "prediction_text", "run_text", "validity_text", "wall_lines"]
+__all__ = ["bounce_text", "prediction_text", "run_text", "validity_text", "wall_lines"]
 
 COLUMNS = {
     "half_contact_length": ("half contact", "m"),
@@ -254,7 +254,7 @@ def run_text(found: dict[str, Any], verbose: bool = False) -> str:
         where = ""
         if found["peak_force_time"] is not None:  # a wall has pushed
             wall = "wall" if found["peak_force_wall"] == "front" else "opposite wall"
-            where = f", on the {wall}, at {1e3 * found['peak_force_time']:.4g} ms and {found['peak_force_place']:.3g} m"
+            where = f", on the {wall}, at {1e3 * found['peak_force_time']:.4g} ms and {found['peak_force_place']:.2g} m"
         peaks["force"] = f"largest force{where}", "N"
         peaks |= {"penetration": ("largest penetration", "m"), "pressure": ("largest pressure", "N/m")}
     for name, (title, unit) in peaks.items():
@@ -263,8 +263,9 @@ def run_text(found: dict[str, Any], verbose: bool = False) -> str:
     if found["restitution"]["value"] is not None:
         lines.append(_compared("coefficient of restitution", found["restitution"]))
     lines.append(["lost to steps and mesh", f"{100.0 * found['numerical_loss']:.2g}", "% of the energy", ""])
+    start = "it passes its rest position" if found["clearance"] else "first contact"
     text = [
-        f"{found['path']}, {1e3 * found['time']:.4g} ms after first contact ({found['seconds']:.2g} s for one run)",
+        f"{found['path']}, {1e3 * found['time']:.4g} ms after {start} ({found['seconds']:.2g} s for one run)",
         "",
         text_table(["", "value", "unit", "theory"], lines + (_of_experts(found) if verbose else [])),
         "",
@@ -291,10 +292,3 @@ def _of_experts(found: dict[str, Any]) -> list[list[str]]:
     lines += [[title, shown(found[name]), "", ""] for name, title in OF_CONTACT.items()]
     lines += [[title, shown(value), "J", ""] for title, value in energies.items() if value is not None]
     return lines + [[title, shown(found[name]), "", ""] for name, title in OF_BALANCE.items()]
-
-
-def hits_table(rows: Sequence[Mapping[str, Any]], names: Sequence[str]) -> str:
-    """Hits by their fields ``names``, a line each."""
-    cells = [[row[name] if isinstance(row[name], str) else f"{row[name]:.5g}" for name in names] for row in rows]
-    head = ["hit", *(HIT[name] for name in names)]
-    return text_table(head, [[str(number), *line] for number, line in enumerate(cells, 1)])

@@ -29,7 +29,8 @@ from numpy.typing import NDArray
 from bent_beam import Impact
 from bent_beam.errors import InputError
 from bent_beam.fields import Part, Quantity
-from bent_beam.loads import FreeMotion, lowest_mode
+from bent_beam.loads import FreeMotion
+from bent_beam.modes import lowest_mode
 
 __all__ = [
     "GEOMETRIES", "STEEPEST", "Array", "Flags", "Geometry", "Indices", "LinearLimit", "Scaling",
@@ -226,8 +227,8 @@ class Geometry(Part, ABC):
         laid, impact = _arc(bow, motion, a), scaling.impact
         laid["x"] += scaling.first_touch
         if impact.supported:
-            modes = lowest_mode(impact.left_end, impact.right_end, impact.half_length / scaling.length, s)
-            laid |= {name: a * mode for name, mode in zip(("velocity_y", "angular_velocity"), modes)}
+            mode, angle_of_mode = lowest_mode(impact, s * scaling.length)
+            laid |= {"velocity_y": a * mode, "angular_velocity": a * scaling.length * angle_of_mode}
         return Shape(
             s=s,
             angle=angle,

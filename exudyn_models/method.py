@@ -155,7 +155,8 @@ class ExudynModel(Part):
         for name, others in apart.items():
             for other in others:
                 if getattr(impact, other):
-                    yield f"{other} is not modelled together with {name} (got {getattr(impact, other)!r})"
+                    given = getattr(impact, other)
+                    yield f"{other} is not modelled together with {name} (got {given!r}); the Hermite path follows both"
         element = self.element or chosen_element(impact)
         of_contact = contact.refuses(impact, element, self.integrator or contact.integrator)
         yield from filter(None, (element.refuses(impact), of_contact))

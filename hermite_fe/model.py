@@ -12,7 +12,7 @@ starts the run (u = q₀x⁴/24, u̇ = V₀ + c₀x²/2) and fixes the load. Wit
 
 so neither K nor K_w is left but in the gap. With shear a node turns by its section's angle, which follows the slope of
 the bow and of V₀ + c₀x²/2; under q₀ it runs ahead, φ = u_x + l_s²u_xxx (:mod:`bent_beam.scales`). Where an end is held
-the start is V₀φ, φ the lowest mode of these ends (:func:`bent_beam.loads.lowest_mode`; with shear, too). A beam that
+the start is V₀ times the lowest mode of these ends (:func:`bent_beam.modes.lowest_mode`). A beam that
 rocks starts with V₀ + ωx in place of V₀; where the bow's apex is off the middle, x counts from it in y₀ and from the
 middle in ωx; both need the full beam.
 
@@ -39,8 +39,8 @@ import numpy as np
 from bent_beam.errors import InputError
 from bent_beam.hysteresis import branches_of
 from bent_beam.impact import Impact
-from bent_beam.loads import lowest_mode
 from bent_beam.meshes import checked_nodes, mirrored
+from bent_beam.modes import lowest_mode
 from hermite_fe.banded import product, stiff_product
 from hermite_fe.beam import HermiteBeam
 from hermite_fe.compiled import Array, Flags
@@ -134,8 +134,7 @@ def beam_model(
     displacement = beam.interpolate(motion(s), motion(s, by_x=1) + impact.shear_length**2 * motion(s, by_x=3))
     velocity = beam.interpolate(motion(s, by_t=1), motion(s, by_x=1, by_t=1))
     if impact.supported:
-        mode, slope = lowest_mode(impact.left_end, impact.right_end, impact.half_length, x)
-        velocity = impact.velocity * beam.interpolate(mode, slope)
+        velocity = impact.velocity * beam.interpolate(*lowest_mode(impact, x))
     bending_stiffness, inertia = beam.stiffness(), mass.matrix(beam)
     stiffness = bending_stiffness + impact.axial_force * beam.geometric_stiffness()
     dampings = far_field.dampings(beam, impact)

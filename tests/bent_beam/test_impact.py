@@ -11,7 +11,7 @@ from bent_beam import Impact
 from bent_beam.checks import affordable
 from bent_beam.errors import SimulationError
 from bent_beam.fields import Quantity, declared
-from bent_beam.loads import ENDS, loads_of, lowest_mode, unmodelled
+from bent_beam.loads import loads_of, unmodelled
 from bent_beam.tables import TABLES
 
 THESIS = dict(bending_stiffness=1.0, mass_per_length=1.0, length=50.0, curvature=10.0, velocity=20.0)
@@ -46,23 +46,11 @@ def test_every_load_is_in_case_files_and_what_a_path_does_not_know_is_refused_by
     assert loads_of(Impact).keys() <= {name for table in TABLES.values() for name in declared(table)}
 
 
-@pytest.mark.parametrize("left", ENDS)
-@pytest.mark.parametrize("right", ENDS)
-def test_the_beam_arrives_in_the_lowest_mode_that_its_ends_allow(left, right):
-    x = np.linspace(-1.5, 1.5, 3001)
-    mode, slope = lowest_mode(left, right, 1.5, x)
-    curvature = np.gradient(slope, x, edge_order=2)
-    assert mode[1500] == pytest.approx(1.0) and slope == pytest.approx(np.gradient(mode, x, edge_order=2), abs=1e-4)
-    for end, at in ((left, 0), (right, -1)):
-        if end != "free":
-            assert abs(mode[at]) < 1e-9
-        if end == "clamped":
-            assert abs(slope[at]) < 1e-9
-        else:
-            assert abs(curvature[at]) < 1e-4
-    bent = np.gradient(np.gradient(curvature, x, edge_order=2), x, edge_order=2)[20:-20]
-    shares = bent[np.abs(mode[20:-20]) > 0.5] / mode[20:-20][np.abs(mode[20:-20]) > 0.5]
-    assert np.ptp(shares) < 1e-3 * (1.0 + shares.max())  # φ⁗ ∝ φ
+def test_a_first_touch_without_a_bow_whose_apex_it_is_is_refused():
+    bow = Impact.whole_beam(0.5).replace(first_touch=0.1)
+    assert bow.replace(curvature=0.0, fourth_derivative=0.1).first_touch == 0.1
+    with pytest.raises(ValueError, match=r"^first_touch has no effect without a bow"):
+        bow.replace(curvature=0.0)
 
 
 def test_loads_that_cancel_press_with_nothing_at_all():

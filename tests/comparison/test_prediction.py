@@ -12,7 +12,7 @@ from here import CASES
 from histories import rod
 
 from bent_beam import Impact
-from bent_beam.cases import Case, load_case
+from bent_beam.cases import Case, case_from_tables, load_case
 from bent_beam.measure.numbers import Number
 from comparison import predicting
 from comparison.doubts import doubts
@@ -123,6 +123,20 @@ def test_a_pull_as_large_as_the_buckling_load_leaves_half_of_a_bow_and_a_tenth_o
     assert "(at rest to about 50 % of its height)" in said[1.0][0] and said[0.09] == []
     held = Impact(4.0, 1.0, 2.0, 0.1, 1.0, axial_force=np.pi**2, tension_direction="tangent", acceleration=0.0)
     assert doubts(held, None) == []  # by other forces
+
+
+def test_sizes_in_mm_stiffness_in_gpa_and_a_hole_that_bends_on_one_side_alone_are_doubted() -> None:
+    steel = {"wall_thickness": 0.01, "youngs_modulus": 206e9, "density": 7850.0}
+    beam = {"beam": {"length": 3.0, "curvature": 0.01}, "impact": {"velocity": 1.0}}
+
+    def said(**change: float) -> str:
+        case = case_from_tables(beam | {"section": {"kind": "pipe", "outer_diameter": 0.1, **steel, **change}})
+        return " ".join(doubts(case.impact, case.section))
+
+    assert said() == "" and "are the sizes of the section in m?" in said(outer_diameter=1.0)
+    assert "youngs_modulus = 206 Pa" in said(youngs_modulus=206.0) and "is it in kg/m³" in said(density=2.7)
+    hole = Impact.whole_beam(0.5).replace(opposite_wall=0.3, wall_curvature=0.1)
+    assert "the second wall is flat" in doubts(hole, None)[-1] and doubts(hole.replace(wall_curvature=0.0), None) == []
 
 
 def test_theory_and_simulation_agree_over_the_longest_time_and_not_at_the_most_instants(monkeypatch) -> None:
