@@ -141,9 +141,8 @@ def _check_frequency(given: float | None, impact: Impact) -> None:
     own = lowest_frequency(impact) if given and impact.wall_clearance else 0.0
     if given and own and abs(given / own - 1.0) > OWN:
         raise InputError(
-            f"impact.frequency = {given!r} is not that of the lowest mode, {own:.4g} Hz, in which the beam swings to "
-            f"its wall, {given / own:.3g} times as far as impact.amplitude with this velocity; give "
-            "impact.velocity, of the middle as it passes its rest position"
+            f"impact.frequency = {given!r} is not the beam's own, {own:.4g} Hz: with V0 = 2 pi f A it would swing "
+            f"{given / own:.3g} times as far as impact.amplitude; give impact.velocity, of its middle at rest position"
         )
 
 
@@ -170,6 +169,11 @@ def _check_buckling(impact: Impact) -> None:
             f"beam.axial_force must not press with more than {most:.6g} N = {share:g} π² EI/L², at which a straight "
             f"beam with these ends buckles (got {impact.axial_force!r})"
         )
+    if impact.supported and impact.axial_force < 0.0:
+        try:
+            lowest_frequency(impact)
+        except InputError as error:  # with shear it buckles sooner
+            raise InputError(f"beam.{error} (got {impact.axial_force!r})") from None
 
 
 def lay_over(tables: dict[str, Any], assignments: Sequence[str]) -> None:

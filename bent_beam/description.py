@@ -31,6 +31,11 @@ def impact_of(beam: BeamTable, arrival: _ImpactTable, wall: WallTable, section: 
     values["curvature"] = _curvature(beam)
     values |= _damping(beam, math.sqrt(values["bending_stiffness"] / values["mass_per_length"]))
     values["left_end"], values["right_end"] = ends = _ends(beam)
+    if arrival.angular_speed is not None and beam.axial_force and ends != ("free", "free"):
+        raise InputError(
+            f"impact.angular_speed = {arrival.angular_speed!r} is of a beam that swings as it is, and "
+            f"beam.axial_force = {beam.axial_force!r} bends it: give impact.velocity, of its middle"
+        )
     values["velocity"] = _velocity(arrival, beam.length, ends)
     values["acceleration"] = _free_flight(arrival, values)
     values |= _wall(wall, values["mass_per_length"])

@@ -150,7 +150,9 @@ def _check_arrangement(impact: Impact) -> None:
         )
     straight = not (impact.curvature or impact.wall_curvature or impact.fourth_derivative or impact.curvature_rate)
     if impact.first_touch and straight:
-        raise InputError(f"first_touch has no effect without a bow, whose apex it is (got {impact.first_touch!r})")
+        raise InputError(
+            f"first_touch, the place of a bow's apex, has no effect on a straight beam (got {impact.first_touch!r})"
+        )
     if impact.wall_curvature and impact.wall_curvature >= impact.curvature:
         raise InputError(
             f"wall_curvature must be less than the beam's curvature {impact.curvature!r}, or no point touches first "

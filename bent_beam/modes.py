@@ -23,6 +23,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
+from bent_beam.errors import InputError
 from bent_beam.impact import Impact
 
 __all__ = ["lowest_frequency", "lowest_mode"]
@@ -30,12 +31,14 @@ __all__ = ["lowest_frequency", "lowest_mode"]
 Array = NDArray[np.float64]
 
 DEGREE = 80  # of a string whose ends bend over 1/100 of its half length the mode is right to 1e-8
+ROUND_OFF = 1e-3  # of the largest 1/ω²: a negative one beyond is no round-off of the zeros beside it
 HELD = {"free": (2, 3), "hinged": (0, 2), "clamped": (0, 1)}
 """Which of w, φ, M, Q are 0 at an end."""
 
 
 def lowest_mode(impact: Impact, x: Array) -> tuple[Array, Array]:
-    """w, 1 in the middle, and φ, 1/m, at the places x, m from the middle; without shear φ = w′."""
+    """w, 1 in the middle, and φ, 1/m, at the places x, m from the middle; without shear φ = w′. Raises
+    :class:`InputError` for a beam that has buckled."""
     half = impact.half_length
     if _is_rigid(impact):
         turns = float(impact.left_end == "hinged") - float(impact.right_end == "hinged")
@@ -79,7 +82,12 @@ def _lowest(ends: tuple[str, str], pull: float, compliance: float, inertia: floa
     at_ends = chebyshev.chebvander(np.array([-1.0, 1.0]), DEGREE)
     held = [np.kron(np.eye(4)[field], at_ends[side]) for side in (0, 1) for field in HELD[ends[side]]]
     left, right = np.vstack([left, *held]), np.vstack([right, np.zeros((4, right.shape[1]))])
-    inverse, modes = np.linalg.eig(np.linalg.solve(left, right))  # 1/ω²
-    lowest = int(np.argmax(inverse.real))
+    found, modes = np.linalg.eig(np.linalg.solve(left, right))
+    inverse = found.real  # 1/ω²: of a mode that has buckled, ω² is negative
+    lowest = int(np.argmax(inverse))
+    if inverse.min() < -ROUND_OFF * inverse[lowest]:
+        raise InputError(
+            "axial_force must not press with more than what a straight beam with these ends bears: it buckles"
+        )
     shape = modes[:, lowest].real.reshape(4, -1)[:2]
-    return float(inverse[lowest].real) ** -0.5, np.asarray(shape / chebyshev.chebval(0.0, shape[0]))
+    return float(inverse[lowest]) ** -0.5, np.asarray(shape / chebyshev.chebval(0.0, shape[0]))

@@ -49,8 +49,8 @@ def doubts(impact: Impact, section: Section | None) -> list[str]:
     radius = math.sqrt(impact.rotary_inertia / impact.mass_per_length)  # of gyration, where it is known
     if impact.length < STUBBY * radius:
         found.append(
-            f"the beam is {impact.length / radius:.2g} radii of gyration of its section long, and what is said is of "
-            "slender beams; are the sizes of the section in m?"
+            f"the beam is only {impact.length / radius:.2g} radii of gyration long, and these numbers are for slender "
+            "beams; are the sizes of the section in m?"
         )
     alike = not (impact.off_centre or impact.wall_in_part)
     if impact.relative_curvature == 0.0 and alike and impact.wall_stiffness is None:
@@ -59,7 +59,7 @@ def doubts(impact: Impact, section: Section | None) -> list[str]:
             "law, from 0 to 1, not of the beam; give it a bow, or the wall a stiffness"
         )
     if impact.opposite_wall is not None and impact.wall_curvature:
-        found.append("the second wall is flat: along a wall with a curvature a hole of one width has another shape")
+        found.append("the second wall is flat and the first one curved: their distance varies along the beam")
     force, pull = impact.axial_force, impact.axial_force * impact.length**2
     pull /= math.pi**2 * impact.bending_stiffness
     held = impact.tension_direction == "tangent" and not impact.acceleration

@@ -13,10 +13,11 @@ from typing import Any
 from bent_beam.as_json import json_text, plain
 from bent_beam.files import write_atomically
 from bent_beam.measure.numbers import Band, Number
+from comparison.whole_numbers import HIT
 
 __all__ = [
-    "BEAMS", "BEFORE", "LIMITS", "REGIMES", "beam_line", "csv_text", "flat", "in_unit", "largest_of", "milliseconds",
-    "number_from", "readable", "shown", "text_table", "unit_for", "write_answer",
+    "BEAMS", "BEFORE", "LIMITS", "REGIMES", "beam_line", "csv_text", "flat", "hits_table", "in_unit", "largest_of",
+    "milliseconds", "number_from", "readable", "shown", "text_table", "unit_for", "write_answer",
 ]  # fmt: skip
 
 RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
@@ -169,3 +170,11 @@ def write_answer(
     file = out / f"{name}.json"
     write_atomically(file, json_text(document or found.to_dict(), indent=1) + "\n")
     return [file, *(style.save(found.plot(), out, name) if drawable else [])]
+
+
+def hits_table(rows: Sequence[Mapping[str, Any]], names: Sequence[str]) -> str:
+    """Hits by their fields ``names``, a line each."""
+    cells = [[row[name] if isinstance(row[name], str) else f"{row[name]:.4g}" for name in names] for row in rows]
+    head = ["hit", *(HIT[name] for name in names)]
+    table = text_table(head, [[str(number), *line] for number, line in enumerate(cells, 1)])
+    return f"{table}\nHits are read from the saved instants of one run and have no error bars."

@@ -117,7 +117,7 @@ class Simulated:
     def _not_reached(self) -> list[str]:
         """Of a beam that swings up to its wall."""
         clearance, pushed = self.history.impact.wall_clearance, np.any(self.history.array("total_impulse"))
-        return [] if pushed or not clearance else [f"the beam does not reach its wall, {clearance:g} m away"]
+        return [] if pushed or not clearance else [f"the beam has not reached its wall, {clearance:g} m away"]
 
     def _reflected(self, infinite: Prediction | None, end: float) -> list[str]:
         """From when on waves are back from the ends, where that ends the theory and the run does not say so."""

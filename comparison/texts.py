@@ -12,6 +12,7 @@ from comparison.readable import (
     LIMITS,
     REGIMES,
     beam_line,
+    hits_table,
     in_unit,
     largest_of,
     milliseconds,
@@ -20,9 +21,9 @@ from comparison.readable import (
     text_table,
     unit_for,
 )  # fmt: skip
-from comparison.whole_numbers import BETWEEN_WALLS, WHOLE, hits_table
+from comparison.whole_numbers import BETWEEN_WALLS, WHOLE
 
-__all__ = ["bounce_text", "prediction_text", "run_text", "validity_text", "wall_lines"]
+__all__ = ["bounce_text", "prediction_text", "run_text", "validity_text"]
 
 COLUMNS = {
     "half_contact_length": ("half contact", "m"),
@@ -254,7 +255,7 @@ def run_text(found: dict[str, Any], verbose: bool = False) -> str:
         where = ""
         if found["peak_force_time"] is not None:  # a wall has pushed
             wall = "wall" if found["peak_force_wall"] == "front" else "opposite wall"
-            where = f", on the {wall}, at {1e3 * found['peak_force_time']:.4g} ms and {found['peak_force_place']:.2g} m"
+            where = f", on the {wall}, at {1e3 * found['peak_force_time']:.4g} ms and {found['peak_force_place']:.3g} m"
         peaks["force"] = f"largest force{where}", "N"
         peaks |= {"penetration": ("largest penetration", "m"), "pressure": ("largest pressure", "N/m")}
     for name, (title, unit) in peaks.items():

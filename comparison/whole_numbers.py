@@ -5,12 +5,9 @@ hit, in a table of hits.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-from comparison.readable import text_table
-
-__all__ = ["BETWEEN_WALLS", "FINAL", "NUMBERS", "OF_ONE_WALL", "WHOLE", "WholeNumber", "hits_table"]
+__all__ = ["BETWEEN_WALLS", "FINAL", "HIT", "NUMBERS", "OF_ONE_WALL", "WHOLE", "WholeNumber"]
 
 
 class WholeNumber(NamedTuple):
@@ -63,11 +60,3 @@ HIT = {
 }
 BETWEEN_WALLS = tuple(name for name in HIT if name != "restitution")
 OF_ONE_WALL = ("begin", "end", "impulse", "before", "after", "restitution")
-
-
-def hits_table(rows: Sequence[Mapping[str, Any]], names: Sequence[str]) -> str:
-    """Hits by their fields ``names``, a line each."""
-    cells = [[row[name] if isinstance(row[name], str) else f"{row[name]:.4g}" for name in names] for row in rows]
-    head = ["hit", *(HIT[name] for name in names)]
-    table = text_table(head, [[str(number), *line] for number, line in enumerate(cells, 1)])
-    return f"{table}\nHits are of one run, read at its saved instants: without error bars."

@@ -42,7 +42,7 @@ Flags = NDArray[np.bool_]
 Indices = NDArray[np.int64]
 
 STEEPEST = 1e-4  # slope in the linear limit: at 2e-3 the energy budget of a whole impact is 8e-6 off
-MODE_SLOPE = 6.0  # of the lowest mode of any ends, V₀/(L/2): clamped and free, at the tip
+MODE_SLOPE = 6.0  # over V₀/(L/2): that of the lowest mode of any ends is half of it
 MOVED = 2.0  # fronts' bounds from the centre: beyond, the beam keeps the shape that it came with
 FARTHEST = 200.0  # bound of a front
 

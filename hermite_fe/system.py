@@ -27,6 +27,7 @@ WIDTH = 4  # diagonal and three subdiagonals: what Hermite elements need
 
 
 def _left_out() -> Any:
+    """Of either type: :class:`ContactRows` makes it one number a row."""
     return np.zeros(0)
 
 

@@ -6,6 +6,7 @@ of ``bentbeam predict``, to the digit.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 from bent_beam.cases import EXAMPLES, load_case
@@ -31,13 +32,13 @@ WHOLE = {
 }
 
 
-def pipe_prediction(store: RunStore | None = None) -> dict[str, Any]:
-    """The prediction of the pipe.
+def pipe_prediction(file: Path = PIPE, store: RunStore | None = None) -> dict[str, Any]:
+    """The prediction of the pipe of a case file.
 
     case; rows : time (ms), by what, and a text for each of :data:`COLUMNS`; validity : of the theory, in words; whole :
     texts of the whole impact as the case states it; damping : (ratio in %, largest stress in MPa); yield_stress, MPa.
     """
-    case = load_case(PIPE)
+    case = load_case(file)
     document = predict_case(case, TIMES, store=store).to_dict()
     rows = [
         (f"{1000.0 * row['time']:g}", by, [text(numbers.get(name), unit) for name, (_, unit) in COLUMNS.items()])

@@ -53,7 +53,8 @@ def bounce(
     asked = _asked(case, kappa_over_nu, damping, paths, assignments or ())
     check_writable(out, folder=True)
     from comparison import bouncing  # SciPy: no refusal above waits for it
-    from comparison.whole_numbers import OF_ONE_WALL, hits_table
+    from comparison.readable import hits_table
+    from comparison.whole_numbers import OF_ONE_WALL
 
     how: dict[str, Any] = {"runs": runs, "seed": seed, "jobs": jobs}
     how["store"], every = RunStore.usual(fresh), []

@@ -1,6 +1,5 @@
 """The studies of error bars, of methods and of whole beams: they draw what they say, count what misses, and keep it."""
 
-
 import numpy as np
 import pytest
 

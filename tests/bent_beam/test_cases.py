@@ -162,6 +162,10 @@ def test_damping_ratio_and_loss_factor_are_the_same_time_constant():
         ({"wall": {"from": 16.0}}, "wall.from must lie on the beam"),
         ({"beam": {"curvature": 0.1, "ends": ["free", "glued"]}}, "beam.ends must be one of .*'glued'"),
         ({"beam": {"curvature": 0.1, "ends": "hinged"}, "impact": {"angular_speed": 1.0}}, "needs one hinge"),
+        (
+            {"beam": BOW | {"ends": ["hinged", "free"], "axial_force": 1e3}, "impact": {"angular_speed": 1.0}},
+            "bends it",
+        ),
         ({"impact": {"drop_height": 1.0, "gravity": 0.0}}, "drop_height = 1.0 needs gravity towards the wall"),
         # what contradicts the model of the beam
         ({"beam": PLAIN | {"model": "timoshenko"}, "section": None}, "needs beam.shear_stiffness"),

@@ -67,6 +67,8 @@ def test_a_match_whose_rows_are_all_refused_is_bad_input_and_still_a_document(ca
         (["bounce", "--kappa-over-nu", "2"], "--damping"),
         (["bounce", "--kappa-over-nu", "2", "--damping", "-1"], "damping"),
         (["bounce", "--kappa-over-nu", "-2", "--damping", "0.1"], "kappa_over_nu"),
+        (["study", "colour", K10], "colour"),
+        (["gallery", "fig-9.9"], "fig-9.9"),
         (["frobnicate"], "frobnicate"),
     ],
 )

@@ -3,6 +3,7 @@
 import json
 from dataclasses import dataclass, replace
 from itertools import product
+from types import SimpleNamespace
 
 import pytest
 from here import CASES
@@ -17,6 +18,7 @@ from comparison.rows import (
     THESIS_KAPPAS,
     MatchQuestion,
     failures,
+    first_order_epsilon,
     lost_row,
     match_table,
     questions,
@@ -238,6 +240,22 @@ def test_a_bow_free_of_stress_is_let_go_by_a_tension_as_it_flies() -> None:
 def test_the_default_rows_are_the_cases_of_the_thesis_that_touch_with_a_zone() -> None:
     cases = [load_case(file).impact.kappa_over_nu for file in CASES.glob("thesis_K*.toml")]
     assert sorted(THESIS_KAPPAS) == pytest.approx(sorted(kappa for kappa in cases if kappa < 1.0))
+
+
+@pytest.mark.parametrize(
+    ("front", "first", "change"),
+    [
+        (0.0, (4.0, 0.0, 0.0, 0.0), lambda z: 4.0 / 2.0),
+        (1.0, (0.0, 0.0, -3.0, 0.0), lambda z: 3.0 * z**2 / 2.0),
+        (2.0, (0.0, 5.0, 0.0, 0.1), lambda z: 5.0 * z**4 / 24.0 + 0.1 / 2.0),
+    ],
+    ids=["point", "turning", "bending and tension"],
+)
+def test_runs_of_first_order_change_the_free_motion_by_a_small_part(front, first, change) -> None:
+    """Of V₀t at the end, at z, a little beyond the front; less where the front is near the middle."""
+    z, part = front + (1.0 + front**2) ** -0.5, 0.05 * (front / (front + 0.2) if front else 1.0)
+    epsilon = first_order_epsilon(SimpleNamespace(front=front), first, 0.05, 0.1)  # type: ignore[arg-type]
+    assert epsilon * 0.1 * change(z) == pytest.approx(part)
 
 
 def test_a_tension_is_alone_where_the_acceleration_is_that_of_free_flight() -> None:

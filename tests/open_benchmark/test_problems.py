@@ -13,8 +13,34 @@ from bent_beam_programs.open_benchmark.bounce_reference import agrees
 from bent_beam_programs.open_benchmark.exact import computed
 from bent_beam_programs.open_benchmark.problem import PROBLEMS, SCHEMA, document, problem, problem_text, shipped_ids
 from bent_beam_programs.open_benchmark.references import REFERENCES, Reference, reference
+from bent_beam_programs.open_benchmark.references import SCHEMA as REFERENCE_SCHEMA
 from bent_beam_programs.open_benchmark.result import Result
 from bent_beam_programs.open_benchmark.score import score
+
+TABLES = {  # of schema beam-impact/2: whoever changes a key changes the version
+    "beam": "axial_force bending_stiffness curvature damping length mass_per_length",
+    "impact": "acceleration curvature_rate fourth_derivative velocity",
+    "wall": "adhesion curvature friction side",
+    "allowed": "equivalents",
+    "record": "end_time fit_window snapshots",
+    "ball": "gravity height mass restitution velocity",
+    "bar": "axial_stiffness far_end gap gravity length mass_per_length shape velocity",
+    "elastic_wall": "bending_stiffness curvature mass_per_length velocity wall_damping wall_stiffness",
+    "elastic_stop": "angular_velocity bending_stiffness length mass_per_length stop_stiffness",
+    "string": "ends height length mass_per_length obstacle restitution shape tension velocity",
+}
+
+
+def test_the_schemas_are_frozen():
+    assert (SCHEMA, REFERENCE_SCHEMA) == ("beam-impact/2", "beam-impact-references/2")
+    for name in shipped_ids():
+        tables = document(problem(name))
+        for table in tables.keys() - {"schema", "id"}:
+            assert sorted(tables[table].keys() - {"largest_half_length"}) == TABLES[table].split(), (name, table)
+    for known in json.loads(REFERENCES.read_text())["problems"].values():
+        assert known.keys() <= {"values", "errors", "impulse"}
+        assert known.get("values", {}).keys() <= {"lambda0", "r0", "lambda1", "r1", "peak_force", "peak_time"}
+        assert known.get("impulse", {}).keys() <= {"variable", "breaks", "coefficients"}
 
 
 @pytest.mark.parametrize(

@@ -22,7 +22,6 @@ def match_on(path, *ratios):
     return ["match", "--path", path, *(word for ratio in ratios for word in ("--kappa-over-nu", ratio)), "--json"]
 
 
-
 def rows(words, folder):
     """Rows of the command in ``folder``, which holds its store, but for how long they took."""
     out, _ = started(*words, cwd=folder).communicate(timeout=590)
