@@ -110,7 +110,8 @@ class Separation:
     def __call__(self, time: float, impulse: float, state: Callable[[], State], *, closed: bool = False) -> bool:
         """Whether the beam has left at ``time`` (s), asked at increasing times.
 
-        impulse : of the pushes so far, N s. closed : whether a contact point is closed, pushing or not.
+        impulse : what grows while the wall acts, such as its impulse so far. closed : whether a contact point is,
+            pushing or not.
         state : gives x, gap, velocity and energy as :func:`cannot_return` takes them; called where they matter.
         """
         if closed or impulse > self.impulse:
