@@ -18,7 +18,7 @@ def stated(text: str) -> tuple[float, float]:
 
 
 def cells(line: str) -> list[str]:
-    return [cell.strip() for cell in line.strip().strip("|").split("|")]
+    return [cell.strip() for cell in line.strip()[1:-1].replace(r"\|", "/").split("|")]
 
 
 def lines_after(page: str, words: str) -> list[list[str]]:

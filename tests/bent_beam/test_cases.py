@@ -81,7 +81,6 @@ def test_the_bow_by_its_sagitta_or_its_dogleg():
         ({"drop_height": 0.5, "gravity": 9.0}, 3.0, 9.0),  # it falls on
         ({"velocity": 1.0, "gravity": 9.0, "gravity_angle": 60.0}, 1.0, 4.5),
         ({"velocity": 1.0, "gravity": 9.0, "gravity_angle": 90.0}, 1.0, 0.0),
-        ({"angular_speed": 0.2}, 3.0, 0.0),
         ({"angular_speed": 0.2, "angular_arm": 5.0}, 1.0, 0.0),
     ],
 )
@@ -149,6 +148,7 @@ def test_damping_ratio_and_loss_factor_are_the_same_time_constant():
         ({"beam": {"curvature": 0.1, "tension_direction": "axis"}}, "tension_direction has no effect"),
         ({"beam": {"curvature": 0.1, "sagitta_length": 1.0}}, "sagitta_length has no effect"),
         ({"impact": {"velocity": 1.0, "angular_arm": 1.0}}, "angular_arm has no effect"),
+        ({"impact": {"angular_speed": 0.2}}, "angular_arm, m, is required .*got 0.2 alone"),
         ({"impact": {"velocity": 1.0, "gravity_angle": 1.0}}, "gravity_angle has no effect"),
         ({"impact": {"velocity": 1.0, "amplitude": 0.01, "frequency": 5.0}}, "velocity = 1.0 and impact.amplitude"),
         ({"impact": {"amplitude": 0.01}}, "impact.frequency, Hz, is required"),
@@ -159,6 +159,9 @@ def test_damping_ratio_and_loss_factor_are_the_same_time_constant():
         ({"wall": {"damping": 1.0}}, "wall.damping has no effect on a rigid wall"),
         ({"wall": {"stiffness": 1e6, "damping": 1.0, "damping_ratio": 0.1}}, "say the same"),
         ({"wall": {"stiffness": 1e6, "damping_ratio": 0.1, "from": 1.0, "to": 1.0}}, "nothing at a stop"),
+        ({"wall": {"stiffness": 1e6, "damping_ratio": 0.1, "from": 15.0}}, "nothing at a stop"),
+        ({"section": 0}, "section"),
+        ({"section": STEEL | {"kind": "general", "poisson_ratio": 0.3}}, "poisson_ratio is not a known setting"),
         ({"wall": {"from": 16.0}}, "wall.from must lie on the beam"),
         ({"beam": {"curvature": 0.1, "ends": ["free", "glued"]}}, "beam.ends must be one of .*'glued'"),
         ({"beam": {"curvature": 0.1, "ends": "hinged"}, "impact": {"angular_speed": 1.0}}, "needs one hinge"),
@@ -242,6 +245,12 @@ def test_an_amplitude_at_a_frequency_is_a_velocity_and_what_is_laid_over_a_case_
         tables = {"impact": FLIGHT | given}
         lay_over(tables, [f"impact.{laid}"])
         assert case(**tables).impact.acceleration == pytest.approx(found)
+    for way in ({"gravity": 1.62}, {"gravity_angle": 60.0}):
+        with pytest.raises(InputError, match="how it fell"):  # the velocity would be another
+            lay_over({"impact": {"drop_height": 1.0, **way}}, ["impact.acceleration=2"])
+    for way, amount in (("hysteretic_loss", 0.0), ("damping", 0.0), ("loss_factor", 0.0)):
+        undamped = case(BOW | {way: amount} | ({"loss_frequency": 5.0} if way == "loss_factor" else {}))
+        assert undamped.damping_stated and undamped.impact.damping == undamped.impact.hysteretic_loss == 0.0
 
 
 @pytest.mark.parametrize(

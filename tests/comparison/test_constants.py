@@ -61,10 +61,11 @@ def test_a_constant_of_loaded_runs_halved_or_doubled(method, module, name, withi
 # --- the Hermite path -------------------------------------------------------------------------------------------------
 
 WITHIN = {0.13: 1e-3, 0.42: 5e-4}  # of λ₀ and r₀, strictly unilateral
+MESH = ("SMALLEST_ELEMENT", "ELEMENTS_IN_FRONT", "GROWTH", "GROWTH_OUTSIDE", "LARGEST_STEP", "LONGEST_FIRST_STEP")
 CONSTANTS = [
-    *((resolution, name) for name in ("SMALLEST_ELEMENT", "ELEMENTS_IN_FRONT", "GROWTH", "GROWTH_OUTSIDE")),
-    *((resolution, name) for name in ("LARGEST_STEP", "LONGEST_FIRST_STEP")),
-    (SignoriniPosition, "elements_in_first_front"),
+    *((resolution, name, WITHIN) for name in MESH),
+    (SignoriniPosition, "elements_in_first_front", WITHIN),
+    (resolution, "THIN", dict.fromkeys((0.004, 0.012), 3e-3)),  # κ/ν on either side of it: where even elements begin
 ]
 
 
@@ -74,12 +75,12 @@ def agrees(found: LeadingEstimate, kappa: float, within: float) -> None:
     assert found.r0.value == pytest.approx(float(exact.r0), rel=within)
 
 
-@pytest.mark.parametrize("kappa", WITHIN)
 @halved_and_doubled
-@pytest.mark.parametrize(("where", "name"), CONSTANTS)
-def test_a_constant_halved_or_doubled(where, name, factor, kappa, monkeypatch):
+@pytest.mark.parametrize(("where", "name", "within"), CONSTANTS)
+def test_a_constant_halved_or_doubled(where, name, within, factor, monkeypatch):
     monkeypatch.setattr(where, name, getattr(where, name) * factor)
-    agrees(leading(HermiteFE(), kappa), kappa, WITHIN[kappa])
+    for kappa, share in within.items():
+        agrees(leading(HermiteFE(), kappa), kappa, share)
 
 
 @pytest.mark.parametrize("kappa", WITHIN)
@@ -109,14 +110,6 @@ def test_errors_and_lift_fall_with_the_mesh_without_any_hold(kappa: float) -> No
     for coarse, fine in pairwise(leading(HermiteFE(refine=refine), kappa) for refine in (0.5, 1.0, 2.0)):
         assert abs(fine.lambda0.value - exact) < 0.6 * abs(coarse.lambda0.value - exact)
         assert fine.lift < 0.5 * coarse.lift
-
-
-@pytest.mark.parametrize("thin", [0.0025, 0.02])
-def test_where_even_elements_begin_does_not_matter(thin: float, monkeypatch: pytest.MonkeyPatch) -> None:
-    """κ/ν on either side of ``THIN`` moved."""
-    monkeypatch.setattr(resolution, "THIN", thin)
-    for kappa in (0.004, 0.012):
-        agrees(leading(HermiteFE(), kappa), kappa, 3e-3)
 
 
 # --- the Exudyn path --------------------------------------------------------------------------------------------------

@@ -121,6 +121,9 @@ def test_times_and_places_that_have_moved_are_a_difference_of_a_run_that_is_repe
     for moved in ("time", "x", "contact_x"):
         found = rerun_history(ImpactHistory.of(dataset.assign_coords({moved: 1.5 * dataset[moved]})))
         assert not found["identical"] and found["largest_difference"] == {moved: pytest.approx(1.0 / 3.0)}
+    found = rerun_history(ImpactHistory.of(dataset.assign(gap=np.nextafter(dataset["gap"], 1.0))))  # by its last bit
+    assert not found["identical"] and 0.0 < found["largest_difference"].pop("gap") < 1e-15
+    assert not found["largest_difference"]
 
 
 @pytest.mark.verify

@@ -73,13 +73,6 @@ def test_a_pressed_zone_ends_where_theory_says_with_its_impulse() -> None:
         assert history.array("total_impulse")[-1] == pytest.approx(theory.impulse, rel=0.005)
 
 
-@pytest.mark.verify
-def test_an_early_thin_front_gets_its_impulse_from_the_velocity_alone() -> None:
-    """Nodes of a mesh that rebound one by one would add 8 %."""
-    hermite, exudyn = (history.array("total_impulse")[-1] for history in simulated(0.0057, curvature=0.086))
-    assert exudyn == pytest.approx(hermite, rel=0.005)
-
-
 def test_a_tension_along_x_bends_the_ends_of_a_bow() -> None:
     """N κ L/2 across the ends: the beam is modelled up to there. The largest moment is there, too."""
     hermite, exudyn = simulated(0.002, curvature=2.1, damping=2.4e-3, axial_force=56.0)

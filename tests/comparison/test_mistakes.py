@@ -3,11 +3,11 @@
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path
-from typing import ClassVar
 
 import numpy as np
 import pytest
 from called import answered, refused
+from strangers import Plain
 
 import hermite_fe
 from bent_beam import Impact, InputError
@@ -37,20 +37,6 @@ class Mute(MoreauJean):
         return None
 
 
-@dataclass(frozen=True)
-class Bare:
-    """A method that says nothing of the whole beam."""
-
-    path: ClassVar[str] = "bare"
-    label: str = "bare"
-
-    def refuses(self, impact):
-        return None
-
-    def simulate(self, impact, **_):
-        raise AssertionError("it ran")
-
-
 @pytest.mark.parametrize(
     ("made", "said"),
     [
@@ -63,7 +49,7 @@ class Bare:
         (lambda: HermiteFE(integrator=Mute()).simulate(IMPACT, end_time=0.01), "Mute.advance must return .*got None"),
         (lambda: match(HermiteFE, kappa_over_nu=[0.5]), r"method: .*: HermiteFE\(\) \(got the class\)"),
         (lambda: bounce(Impact.whole_beam(2.0), 3), r"method: must be .*\(got 3\)"),
-        (lambda: bounce(Impact.whole_beam(2.0), Bare()), "bare lacks for_whole_beam"),
+        (lambda: bounce(Impact.whole_beam(2.0), Plain()), "theirs lacks for_whole_beam"),
         (lambda: sweep({}, {"impact.velocity": 3.0}), r"impact.velocity takes its values in a list, .*\(got 3.0\)"),
     ],
 )

@@ -33,16 +33,6 @@ def impulse_of_theory(kappa_over_nu, time=0.1):
     return 4.0 * np.sqrt(2.0 * time / np.pi) * float(contact_parameters(kappa_over_nu).r0)
 
 
-@pytest.mark.verify
-@pytest.mark.parametrize("seed", range(44, 49))
-def test_plain_exudyn_gives_the_impulse_of_theory_and_of_simulate(seed):
-    impact = Impact.dimensionless(float(np.random.default_rng(seed).uniform(0.1, 0.9)))
-    _, read = solved(impact)
-    found, simulated = read["impulse"][-1, 0], exudyn_models.simulate(impact).array("total_impulse")[-1]
-    assert found == pytest.approx(simulated, rel=1e-3), impact
-    assert found == pytest.approx(impulse_of_theory(impact.kappa_over_nu), rel=1e-3), impact
-
-
 def test_a_load_in_si_units_presses_as_in_simulate():
     """A third more velocity until the end."""
     pressed = STEEL.replace(acceleration=1e3)

@@ -55,28 +55,6 @@ def test_a_free_motion_that_meets_the_wall_elsewhere_is_said_of_ends_that_follow
     assert said(impact, "free") == said(impact.replace(fourth_derivative=-0.02), "following") == []
 
 
-@pytest.mark.parametrize(
-    ("groups", "r1", "lambda0"),
-    [
-        ((1.0, 1.0), 1.83706066099, 1.01886591389),
-        pytest.param((-1.0, -1.0), -4.18053010088, 0.0, marks=pytest.mark.verify),
-    ],
-)
-def test_first_order_reaction_at_kappa_one_half(groups: tuple[float, float], r1: float, lambda0: float) -> None:
-    """I₁ = (4√(2/π)/3 r₁ + (4/3)(α + ψ)₊λ₀) τ^{3/2}, initial shape and rate simulated."""
-    alpha, psi = groups
-    contact = NodeContact(hold=16 if alpha + psi >= 0 else 0)
-    out = []
-    for epsilon in (0.0, 2e-3, 4e-3):
-        impact = Impact.dimensionless(0.5, epsilon_alpha=epsilon * alpha, epsilon_psi=epsilon * psi, length=60.0)
-        out.append(simulate(impact, end_time=1.0, contact=contact, far_field=GridViscosity(end="following")))
-    tau, (base, *loaded) = out[0].time, (history.array("total_impulse") for history in out)
-    late = tau >= 0.1
-    slopes = [np.polyfit(tau[late] ** 1.5, ((one - base) / e)[late], 1)[0] for one, e in zip(loaded, (2e-3, 4e-3))]
-    first = 2.0 * slopes[0] - slopes[1] - 4.0 / 3.0 * max(alpha + psi, 0.0) * lambda0
-    assert first / (4.0 * math.sqrt(2.0 / math.pi) / 3.0) == pytest.approx(r1, rel=5e-3)
-
-
 def test_without_contact_the_free_motion_is_reproduced() -> None:
     impact = Impact.dimensionless(3.0, epsilon_alpha=0.4, epsilon_psi=0.3, epsilon_chi=-0.2, length=4.0)
     impact = impact.replace(velocity=1e-3, acceleration=-0.4)  # leaves before it touches anything

@@ -102,7 +102,7 @@ def test_a_beam_in_the_opposite_wall_is_in_a_wall() -> None:
     """Flat, 0.3 m behind the apex of a beam before a curved wall."""
     x, time = np.linspace(0.0, 1.0, 5), np.linspace(0.0, 1.0, 11)
     impact = WHOLE.replace(opposite_wall=0.3, wall_curvature=0.2)
-    front = 0.1 * x**2
+    front = -0.1 * x**2
     for behind, depth in ((0.0, 0.0), (0.05, 0.05)):
         gap = np.outer(time, front + 0.3 + behind)
         assert balance_of(history_of(time, x, impact=impact, gap=gap)).penetration == pytest.approx(depth, abs=1e-12)

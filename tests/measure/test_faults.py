@@ -12,6 +12,7 @@ import numba
 import numpy as np
 import pytest
 from exudyn.solver import ComputeLinearizedSystem
+from here import ROOT
 
 from bent_beam import Impact, ImpactHistory
 from bent_beam.measure.balance import balance_of
@@ -19,7 +20,6 @@ from bent_beam.measure.reduction import pull_of
 from bent_beam.meshes import UniformMesh
 from bent_beam.method import made_of
 
-ROOT = Path(__file__).parents[2]
 WHOLE, END = Impact.whole_beam(0.5, relative_damping=1e-2), 0.1
 MESH = UniformMesh(1.0 / 16)
 SOUND = {"momentum": 3e-3, "second_moment": 5e-3, "points": 1e-9, "initial_energy": 1e-9, "mass": 1e-9, "energy": 1e-3,

@@ -46,18 +46,25 @@ def kill_when(happened, process):
     process.communicate()
 
 
+SWEEP = ["sweep", "rod.toml", "--vary", "impact.velocity=0.5:2:8", "--vary", "beam.damping_ratio=0.01:0.05:5", "--json"]
+KILLED = {"match": match_on("hermite", 0.5, 0.3, 2.0), "sweep": [*SWEEP, "--jobs", 2]}
+
+
 @pytest.mark.verify
-def test_a_killed_match_starts_again_and_ends_with_the_same_rows(tmp_path):
-    """Killed with one more run in the store each time; then a run that was kept is torn as well."""
-    words, numbers = match_on("hermite", 0.5, 0.3, 2.0), random.Random(f"{SEED} match")
-    folders = [tmp_path / str(number) for number in range(7 if FUZZ else 2)]
+@pytest.mark.parametrize("name", KILLED)
+def test_a_killed_command_starts_again_and_ends_with_the_same_rows(name, tmp_path):
+    """Killed twice, with more runs in the store each time; then a run that was kept is torn as well."""
+    words, numbers = KILLED[name], random.Random(f"{SEED} {name}")
+    folders = [tmp_path / str(number) for number in range(7 if FUZZ and name == "match" else 2)]
     for folder in folders:
         folder.mkdir()
+        (folder / "rod.toml").write_text(ROD + '[mesh]\nkind = "uniform"\nelement_length = 0.1\n')
     whole, *killed = folders
     expected, runs = rows(words, whole), len(whole_runs_in(whole))
+    assert len(expected) == {"match": 3, "sweep": 40}[name] and not any(row.get("reason") for row in expected)
     for folder in killed:
-        jobs = ["--jobs", numbers.choice("12")] if FUZZ else []
-        for count in sorted(numbers.sample(range(1, runs), 3 if FUZZ else 1)):
+        jobs = ["--jobs", numbers.choice("12")] if FUZZ and name == "match" else []
+        for count in sorted(numbers.sample(range(1, runs), 2)):
             kill_when(lambda: len(kept(folder)) >= count, started(*words, *jobs, cwd=folder))  # noqa: B023
         before = whole_runs_in(folder)
         assert rows(words, folder) == expected
@@ -67,24 +74,6 @@ def test_a_killed_match_starts_again_and_ends_with_the_same_rows(tmp_path):
     torn.write_bytes(torn.read_bytes()[: numbers.randrange(torn.stat().st_size)])
     assert rows(words, folder) == expected
     assert len(whole_runs_in(folder)) == runs
-
-
-@pytest.mark.verify
-def test_a_sweep_of_forty_rows_killed_twice_ends_with_the_same_rows(tmp_path):
-    """Killed with all its workers at moments drawn from the seed."""
-    case, numbers = tmp_path / "rod.toml", random.Random(f"{SEED} sweep")
-    case.write_text(ROD + '[mesh]\nkind = "uniform"\nelement_length = 0.1\n')
-    words = ["sweep", case, "--vary", "impact.velocity=0.5:2:8", "--vary", "beam.damping_ratio=0.01:0.05:5", "--json"]
-    whole, killed = tmp_path / "whole", tmp_path / "killed"
-    for folder in (whole, killed):
-        folder.mkdir()
-    expected = rows([*words, "--jobs", 2], whole)
-    assert len(expected) == 40 and all(row["restitution"]["value"] is not None for row in expected)
-    for count in sorted(numbers.sample(range(1, len(kept(whole))), 2)):
-        kill_when(lambda: len(kept(killed)) >= count, started(*words, "--jobs", 2, cwd=killed))  # noqa: B023
-    before = whole_runs_in(killed)
-    assert rows(words, killed) == expected
-    assert before.items() <= whole_runs_in(killed).items()  # none that was kept is computed again
 
 
 def test_runs_that_fail_are_reported_with_how_to_ask_again_and_the_rest_goes_on(monkeypatch):

@@ -1,6 +1,7 @@
 """Files built to harm are refused in one line: nothing else is opened, nothing runs, memory and time stay small."""
 
 import json
+import math
 import os
 import re
 import tempfile
@@ -155,6 +156,9 @@ MISREAD = {
     "an escape in a warning": attribute("warnings", ["\x1b]0;title\x07"]),
     "a warning that is no text": attribute("warnings", [{"a": 1}]),
     "an escape in the path": attribute("path", "hermite\x1b[31m"),
+    "a section that is a list": attribute("section", [1.0]),
+    "a section without its modulus": attribute("section", {"area": 1.0}),
+    "a section without end": attribute("section", {"area": math.inf, "section_modulus": 1.0}),
     "an impact that is no JSON": attribute("impact", "{"),
     "an impact that is a number": attribute("impact", 3.0),
     "an impact of NaN": impact(velocity=float("nan")),

@@ -45,15 +45,15 @@ def test_leading_order_and_one_point_at_every_order_touch_to_round_off_and_a_det
     assert np.all(detached.complementarity_residual([0.0, 0.3, 0.6], 0.3) < -1e-4)
 
 
-@pytest.mark.parametrize("ratio", [0.5, *(pytest.param(ratio, marks=slow) for ratio in (1 / 1600, 0.999, 3.0))])
+@pytest.mark.parametrize("ratio", [1 / 1600, 0.5, 0.999, 3.0])
 def test_convolution_equals_the_closed_form_everywhere(ratio: float) -> None:
     parameters = contact_parameters(ratio)
     wave, tau = SelfSimilarWave(parameters), 0.7
     ahead = parameters.lambda0 + np.logspace(-10, 2, 5)
-    x = np.unique([*np.linspace(0.0, parameters.lambda0, 3), *ahead])
+    x = np.unique([*np.linspace(-parameters.lambda0, parameters.lambda0, 3), *ahead])
     fast = ImpactFields(parameters).fast_layer(x * np.sqrt(tau), tau)
     for name, scale in {"deflection": tau, "slope": np.sqrt(tau), "curvature": 1.0, "velocity": 1.0}.items():
-        np.testing.assert_allclose(getattr(fast, name), scale * getattr(wave, name)(x), rtol=0.0, atol=1e-9)
+        np.testing.assert_allclose(getattr(fast, name), scale * getattr(wave, name)(x), rtol=0.0, atol=1e-11)
 
 
 def plain_convolution(fields: ImpactFields, xi: float, tau: float) -> float:

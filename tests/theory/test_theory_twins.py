@@ -1,0 +1,45 @@
+"""A prediction in other units is the same prediction, in every number, to round-off."""
+
+import random
+
+import pytest
+from here import FUZZ, SEED
+from twins import EXACT, agree, in_units
+
+from bent_beam import Impact
+from bent_beam.section import Pipe
+from theory import predict
+
+BEAM = Impact(2.0, 3.0, 60.0, 0.4, 1.25)
+LOADED = BEAM.replace(acceleration=0.8, curvature_rate=-0.02, fourth_derivative=0.03)
+IMPACTS = {
+    "loaded": LOADED,
+    "sheared and pulled": LOADED.replace(shear_stiffness=150.0, rotary_inertia=5e-3, axial_force=0.5),
+    "damped": BEAM.replace(damping=1e-3),
+    "one point, damped": BEAM.replace(curvature=3.0, damping=1e-3),
+    "soft wall": LOADED.replace(wall_stiffness=6e4, wall_damping=40.0),
+    "one point, soft wall": BEAM.replace(curvature=3.0, wall_stiffness=6e4),
+}
+SECTION = Pipe(outer_diameter=0.05, wall_thickness=0.01, youngs_modulus=2e6, density=900.0, yield_stress=2e4)
+LENGTHS = ("length_scale", "deflection_scale", "half_contact_length", "peak_moment_place", "zone_offset", "penetration")
+TIMES = ("time_scale", "slow_time_scale", "valid_from", "valid_until", "force_until", "time", "rigid_from")
+UNITS = dict.fromkeys(LENGTHS, "m") | dict.fromkeys((*TIMES, "peak_force_time"), "s")
+UNITS |= dict.fromkeys(("reaction", "peak_force", "peak_force_error"), "N") | {"impulse": "N s", "peak_moment": "N m"}
+UNITS |= dict.fromkeys(("contact_force_per_length", "pressure"), "N/m") | {"peak_stress": "Pa"}
+BASES = [EXACT, {"kg": 1e-12, "m": 1e6, "s": 1e4}]
+if FUZZ:
+    RANDOM = random.Random(SEED)
+    BASES += [{unit: 10.0 ** RANDOM.uniform(-9.0, 9.0) for unit in EXACT} for _ in range(6)]
+
+
+@pytest.mark.parametrize("base", BASES)
+@pytest.mark.parametrize("name", IMPACTS)
+def test_every_number_of_a_prediction_changes_with_its_unit(name, base):
+    impact, tau = IMPACTS[name], (1e-3, 0.05, 0.4)
+    asked = [(impact, SECTION), (in_units(impact, base), in_units(SECTION, base))]
+    found = [predict(beam, [t * beam.time_scale for t in tau], section=section) for beam, section in asked]
+    agree(*found, UNITS, base)
+    for rows in zip(*(one.times for one in found), strict=True):
+        agree(*rows, UNITS, base)
+    if impact.wall_stiffness:
+        agree(*(one.wall for one in found), UNITS, base)
