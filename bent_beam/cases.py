@@ -74,7 +74,6 @@ class Case:
 
 
 KNOWN = ("title", *TABLES, "section", "mesh")
-DAMPINGS = ("damping", "damping_ratio", "loss_factor")  # of [beam]: ways to state one
 
 
 def _tables_of_paths(tables: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
@@ -86,7 +85,7 @@ def _tables_of_paths(tables: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
 
     for name, table in found.items():
         if name not in paths():
-            keys_of = {at: map(key_of, part.__dataclass_fields__) for at, part in TABLES.items()}
+            keys_of = {at: [key_of(one.name) for one in dataclasses.fields(part)] for at, part in TABLES.items()}
             places = [f"{at}.{name}" for at, keys in keys_of.items() if name in keys]
             if places:
                 raise InputError(f"{name} is not a table (did you mean {' or '.join(places)}?)")
@@ -107,7 +106,7 @@ def case_from_tables(tables: Mapping[str, Any]) -> Case:
     arrival = made_from(ImpactTable, tables["impact"], "impact")
     wall = made_from(WallTable, tables.get("wall", {}), "wall")
     others = _tables_of_paths(tables)
-    section = part_from_table(SECTIONS, tables["section"], "section") if tables.get("section") else None
+    section = None if tables.get("section") is None else part_from_table(SECTIONS, tables["section"], "section")
     try:
         impact = impact_of(beam, arrival, wall, section)
     except ValueError as error:
@@ -121,7 +120,7 @@ def case_from_tables(tables: Mapping[str, Any]) -> Case:
         mesh=part_or_auto(MESHES, tables.get("mesh", {}), "mesh"),
         tables=others,
         section=section,
-        damping_stated=bool(beam.hysteretic_loss) or any(getattr(beam, name) is not None for name in DAMPINGS),
+        damping_stated=any(getattr(beam, name) is not None for name in WAYS["beam"][1]),
     )
 
 
@@ -149,31 +148,29 @@ def _check_frequency(given: float | None, impact: Impact) -> None:
 OWN = 0.1  # of a frequency: closer it is the lowest mode's
 
 BUCKLING = {
-    ("free", "free"): 1.0,  # of a bow at rest
-    ("hinged", "hinged"): 1.0,
-    ("clamped", "free"): 0.25,
-    ("clamped", "hinged"): 2.0457,
-    ("clamped", "clamped"): 4.0,
-    ("hinged", "free"): 0.0,
+    frozenset({"free"}): 1.0,  # of a bow at rest
+    frozenset({"hinged"}): 1.0,
+    frozenset({"clamped", "free"}): 0.25,
+    frozenset({"clamped", "hinged"}): 2.0457,
+    frozenset({"clamped"}): 4.0,
+    frozenset({"hinged", "free"}): 0.0,
 }
 """Largest compression over π² EI/L², by ends (Euler; Timoshenko and Gere, Theory of Elastic Stability, 1961, ch. 2)."""
 
 
 def _check_buckling(impact: Impact) -> None:
     """Raise :class:`InputError` for a compression under which no bow is at rest."""
-    ends = (impact.left_end, impact.right_end)
-    share = BUCKLING.get(ends, BUCKLING.get(ends[::-1], 1.0))
+    share = BUCKLING[frozenset((impact.left_end, impact.right_end))]
     most = share * math.pi**2 * impact.bending_stiffness / impact.length**2
+    if impact.shear_stiffness is not None and not impact.supported:
+        most /= 1.0 + most / impact.shear_stiffness  # Engesser; of held ends the lowest mode tells
     if impact.axial_force < -most:
         raise InputError(
-            f"beam.axial_force must not press with more than {most:.6g} N = {share:g} π² EI/L², at which a straight "
-            f"beam with these ends buckles (got {impact.axial_force!r})"
+            f"beam.axial_force must not press with more than {most:.6g} N, at which a straight beam with these ends "
+            f"buckles (got {impact.axial_force!r})"
         )
     if impact.supported and impact.axial_force < 0.0:
-        try:
-            lowest_frequency(impact)
-        except InputError as error:  # with shear it buckles sooner
-            raise InputError(f"beam.{error} (got {impact.axial_force!r})") from None
+        lowest_frequency(impact)  # with shear it buckles sooner
 
 
 def lay_over(tables: dict[str, Any], assignments: Sequence[str]) -> None:
@@ -230,6 +227,8 @@ def _lay(tables: dict[str, Any], key: str, value: Any, option: str) -> None:
         table = table.setdefault(name, {})
         if not isinstance(table, dict):
             raise InputError(f"{option} {key}: {name} is a value, not a table")
+    if last == "acceleration" and "drop_height" in table and table.keys() & {"gravity", "gravity_angle"}:
+        raise InputError(f"{option} {key}: impact.gravity says how it fell from drop_height; give impact.velocity too")
     for ways in WAYS.get(".".join(path), ()):
         others = [name for name in ways if last in ways and name != last and name in table]
         for name in {*others, *(own for other in others for own in ways[other])} - {*ways.get(last, ())}:

@@ -39,7 +39,10 @@ def impact_of(beam: BeamTable, arrival: _ImpactTable, wall: WallTable, section: 
     values["velocity"] = _velocity(arrival, beam.length, ends)
     values["acceleration"] = _free_flight(arrival, values)
     values |= _wall(wall, values["mass_per_length"])
-    return Impact(**values)
+    impact = Impact(**values)
+    if wall.damping_ratio is not None and impact.wall_span[0] == impact.wall_span[1]:
+        raise InputError(f"wall.damping_ratio means nothing at a stop: give wall.damping (got {wall.damping_ratio!r})")
+    return impact
 
 
 def _one_of(table: Part, group: int, *, required: bool = True) -> tuple[str | None, float]:
@@ -121,18 +124,18 @@ def _damping(beam: BeamTable, wave: float) -> dict[str, Any]:
     way, amount = _one_of(beam, 1, required=False)
     measured, frequency = way in ("loss_factor", "hysteretic_loss"), beam.loss_frequency
     _only_with("beam.loss_frequency", frequency, "beam.loss_factor or beam.hysteretic_loss", measured)
-    if measured and frequency is None:
+    if measured and amount and frequency is None:
         mode = FIRST_MODE**2 * wave / (2.0 * math.pi * beam.length**2)
         raise InputError(
             f"beam.loss_frequency is required next to beam.{way} (got {amount!r} alone): the frequency, Hz, "
             f"at which it was measured; this beam's first free–free mode is at {mode:.4g} Hz"
         )
-    if way == "hysteretic_loss":
+    if way == "hysteretic_loss" and amount:
         return {"hysteretic_loss": amount, "loss_frequency": frequency}
     if way == "damping_ratio":
         amount *= 2.0 * (beam.length / FIRST_MODE) ** 2 / wave
     if way == "loss_factor":
-        amount /= 2.0 * math.pi * (frequency or 0.0)
+        amount /= 2.0 * math.pi * (frequency or 1.0)
     return {"damping": amount}
 
 
@@ -173,11 +176,17 @@ def _velocity(table: _ImpactTable, length: float, ends: tuple[str, str]) -> floa
             raise InputError(
                 f"impact.angular_speed needs one hinge to swing about: give impact.velocity (got {given!r})"
             )
+        if ends == ("free", "free") and table.angular_arm is None:
+            raise InputError(
+                f"impact.angular_arm, m, is required next to impact.angular_speed (got {given!r} alone), of arms on "
+                "which a free beam swings without turning; of one that turns, give impact.velocity, of its middle, "
+                "and impact.rotation"
+            )
         if ends != ("free", "free") and table.angular_arm is not None:
             raise InputError(
                 f"impact.angular_arm has no effect on a beam that swings about its hinge (got {table.angular_arm!r})"
             )
-        return given * (length / 2.0 if table.angular_arm is None else table.angular_arm)
+        return given * (table.angular_arm or length / 2.0)
     along = _towards_wall(table)
     if along <= 0.0:
         raise InputError(
@@ -208,8 +217,6 @@ def _wall(wall: WallTable, mass_per_length: float) -> dict[str, Any]:
     if way is not None and wall.stiffness is None:
         raise InputError(f"wall.{way} has no effect on a rigid wall: give wall.stiffness too (got {amount!r})")
     if way == "damping_ratio":
-        if wall.from_ is not None and wall.from_ == wall.to:
-            raise InputError(f"wall.damping_ratio means nothing at a stop: give wall.damping, N s/m (got {amount!r})")
         amount *= 2.0 * math.sqrt((wall.stiffness or 0.0) * mass_per_length)
     return {
         "wall_curvature": wall.curvature,

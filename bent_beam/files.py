@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from bent_beam.checks import finite, one_of, shortened
+from bent_beam.checks import finite, one_of, positive, shortened
 from bent_beam.guarded import try_first
 
 if TYPE_CHECKING:
@@ -238,8 +238,8 @@ def check_contents(history: Any) -> None:
     _plain_text([history.path, *map(str, variables)], "attribute path or a variable's name")
     if not all(isinstance(line, str) for line in history.warnings):
         raise TypeError("attribute warnings must hold texts")
-    if "section" in attributes and not all(value > 0.0 for value in json.loads(attributes["section"]).values()):
-        raise ValueError("attribute section must hold positive numbers")
+    for name in ("area", "section_modulus") if "section" in attributes else ():
+        positive(f"attribute section: {name}", json.loads(attributes["section"])[name])
     one_of("attribute symmetry", attributes["symmetry"], ("half", "full"))
     _ = history.impact, history.steps, history.completed
     for required in REQUIRED:

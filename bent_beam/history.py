@@ -200,7 +200,7 @@ class ImpactHistory:
         Moments that the path has recorded, as of a beam with shear; else y_xx is that of the Hermite cubic through
         deflections and slopes (by differences where a history has none). The part η y_txx of a damped beam is left out.
         """
-        impact, x = self.impact, self.positions(k if isinstance(k, int) else 0)
+        impact, x = self.impact, self.positions(0 if isinstance(k, slice) else k)
         place = np.stack([x[:-1], x[1:]], axis=1)
         if "bending_moment" in self:
             recorded = self.array("bending_moment", k)

@@ -43,13 +43,13 @@ def lowest_mode(impact: Impact, x: Array) -> tuple[Array, Array]:
     if _is_rigid(impact):
         turns = float(impact.left_end == "hinged") - float(impact.right_end == "hinged")
         return 1.0 + turns * x / half, np.full_like(x, turns / half)
-    w, angle = (chebyshev.chebval(x / half, c) for c in _lowest(*_in_own_units(impact))[1])
+    w, angle = (chebyshev.chebval(x / half, c) for c in _lowest_of(impact)[1])
     return np.asarray(w), np.asarray(angle / half)
 
 
 def lowest_frequency(impact: Impact) -> float:
     """Of the lowest mode, Hz; 0 of a beam that flies, or swings about a hinge."""
-    omega = 0.0 if _is_rigid(impact) else _lowest(*_in_own_units(impact))[0]
+    omega = 0.0 if _is_rigid(impact) else _lowest_of(impact)[0]
     return omega * impact.wave_constant / impact.half_length**2 / (2.0 * math.pi)
 
 
@@ -59,17 +59,26 @@ def _is_rigid(impact: Impact) -> bool:
     return ends == {"free"} or (ends == {"free", "hinged"} and not impact.axial_force)
 
 
-def _in_own_units(impact: Impact) -> tuple[tuple[str, str], float, float, float]:
-    """The ends, N, f and J in the units of (1)."""
+def _lowest_of(impact: Impact) -> tuple[float, Array]:
+    """ω, and the coefficients of w and φ, in the units of (1)."""
     unit, shears = impact.bending_stiffness / impact.half_length**2, impact.shear_stiffness
     inertia = impact.rotary_inertia / (impact.mass_per_length * impact.half_length**2)
     ends = (impact.left_end, impact.right_end)
-    return ends, impact.axial_force / unit, 0.0 if shears is None else unit / shears, inertia
+    found = _lowest(ends, impact.axial_force / unit, 0.0 if shears is None else unit / shears, inertia)
+    if found is None:
+        raise InputError(
+            "axial_force must not press with more than what a straight beam with these ends bears: it buckles "
+            f"(got {impact.axial_force!r})"
+        )
+    return found
 
 
 @lru_cache(maxsize=64)
-def _lowest(ends: tuple[str, str], pull: float, compliance: float, inertia: float) -> tuple[float, Array]:
-    """ω, and coefficients of w, 1 in the middle, and φ, (2, degrees), in the units of (1)."""
+def _lowest(ends: tuple[str, str], pull: float, compliance: float, inertia: float) -> tuple[float, Array] | None:
+    """ω, and coefficients of w, 1 in the middle, and φ, (2, degrees), in the units of (1); ``None`` of a beam that has
+    buckled."""
+    if compliance * pull <= -1.0:  # by shear alone
+        return None
     points, every = chebyshev.chebpts1(DEGREE), np.eye(DEGREE + 1)
     values = chebyshev.chebvander(points, DEGREE)
     slopes = chebyshev.chebvander(points, DEGREE - 1) @ chebyshev.chebder(every)
@@ -86,8 +95,6 @@ def _lowest(ends: tuple[str, str], pull: float, compliance: float, inertia: floa
     inverse = found.real  # 1/ω²: of a mode that has buckled, ω² is negative
     lowest = int(np.argmax(inverse))
     if inverse.min() < -ROUND_OFF * inverse[lowest]:
-        raise InputError(
-            "axial_force must not press with more than what a straight beam with these ends bears: it buckles"
-        )
+        return None
     shape = modes[:, lowest].real.reshape(4, -1)[:2]
     return float(inverse[lowest]) ** -0.5, np.asarray(shape / chebyshev.chebval(0.0, shape[0]))

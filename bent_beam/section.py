@@ -30,7 +30,6 @@ class Section(Part, ABC):
     density: Annotated[float, Quantity("kg/m³", "of the material", above=0.0)]
     yield_stress: Annotated[float | None, Quantity("Pa", "limit for the largest stress", above=0.0, absent="-")] = None
     added_mass: Annotated[float, Quantity("kg/m", "outer mass moving with the beam (mud, cladding)", least=0.0)] = 0.0
-    poisson_ratio: Annotated[float, Quantity("", "for shear", least=-0.99, most=0.5)] = 0.3
 
     @property
     @abstractmethod
@@ -48,16 +47,9 @@ class Section(Part, ABC):
         """h, m."""
 
     @property
-    def shear_coefficient(self) -> float | None:
-        """κ_s of Timoshenko's beam (Cowper 1966, J. Appl. Mech. 33, 335); ``None`` where it is not known."""
-        return None
-
-    @property
     def shear_stiffness(self) -> float | None:
-        """κ_s G A, N."""
-        if self.shear_coefficient is None:
-            return None
-        return self.shear_coefficient * self.youngs_modulus / (2.0 * (1.0 + self.poisson_ratio)) * self.area
+        """κ_s G A, N; ``None`` where κ_s is not known."""
+        return None
 
     @property
     def bending_stiffness(self) -> float:
@@ -90,7 +82,23 @@ class Section(Part, ABC):
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Round(Section, ABC):
+class _Shaped(Section, ABC):
+    """A section whose shape says how it shears."""
+
+    poisson_ratio: Annotated[float, Quantity("", "for shear", least=-0.99, most=0.5)] = 0.3
+
+    @property
+    @abstractmethod
+    def shear_coefficient(self) -> float:
+        """κ_s of Timoshenko's beam (Cowper 1966, J. Appl. Mech. 33, 335)."""
+
+    @property
+    def shear_stiffness(self) -> float:
+        return self.shear_coefficient * self.youngs_modulus / (2.0 * (1.0 + self.poisson_ratio)) * self.area
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Round(_Shaped, ABC):
     """A round section of diameter ``height``."""
 
     @property
@@ -169,7 +177,7 @@ class RoundBar(_Round):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Rectangle(Section):
+class Rectangle(_Shaped):
     """A rectangle."""
 
     width: Annotated[float, Quantity("m", "", above=0.0)]

@@ -54,7 +54,7 @@ class BeamTable(Part):
         float | None, Quantity("1", "the same as damping ratio of the first free–free bending mode", least=0.0)
     ] = None
     loss_factor: Annotated[float | None, Quantity("1", "the same as loss factor at loss_frequency", least=0.0)] = None
-    hysteretic_loss: Annotated[float, of_impact("hysteretic_loss")] = 0.0
+    hysteretic_loss: Annotated[float | None, of_impact("hysteretic_loss")] = None
     loss_frequency: Annotated[
         float | None, Quantity("Hz", "where loss_factor or hysteretic_loss was measured", above=0.0)
     ] = None
@@ -74,10 +74,10 @@ class _ImpactTable(Part):
         float | None, Quantity("m", "fallen from rest, instead of the velocity: V₀ = √(2gh)", above=0.0)
     ] = None
     angular_speed: Annotated[
-        float | None, Quantity("rad/s", "swinging about a pivot angular_arm away, instead of the velocity", above=0.0)
+        float | None, Quantity("rad/s", "swinging about its hinge, or on arms, instead of the velocity", above=0.0)
     ] = None
     angular_arm: Annotated[
-        float | None, Quantity("m", "from the pivot to the first touch; half the length unless given", above=0.0)
+        float | None, Quantity("m", "of the arms on which a free beam swings without turning", above=0.0)
     ] = None
     amplitude: Annotated[
         float | None, Quantity("m", "vibrating at frequency, instead of the velocity: V₀ = 2πfA", above=0.0)

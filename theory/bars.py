@@ -84,12 +84,12 @@ class FlyingBar:
 
     def reaction(self, times: ArrayLike) -> FloatArray:
         """r ≥ 0, a force."""
-        t, (touch, release) = np.asarray(times, dtype=np.float64), self.contact
+        (_, t), (touch, release) = placed(0.0, times), self.contact
         return np.where((t >= touch) & (t <= release), self.stiffness * self.velocity / self.wave_speed, 0.0)
 
     def impulse(self, times: ArrayLike) -> FloatArray:
         """∫r; 2μLv in all."""
-        t, (touch, release) = np.asarray(times, dtype=np.float64), self.contact
+        (_, t), (touch, release) = placed(0.0, times), self.contact
         return np.asarray(self.stiffness * self.velocity / self.wave_speed * (np.clip(t, touch, release) - touch))
 
 
@@ -108,6 +108,8 @@ class DroppedBar:
     height: float = 5.0
 
     def __post_init__(self) -> None:
+        for name, value in vars(self).items():
+            positive(name, value)
         periods = self.flight / self.contact
         if abs(periods - round(periods)) > 1e-9 or self.gravity * self.contact >= self.landing_speed:
             raise ValueError(f"height: the flight must be a whole number of 2L/c, longer than 2 (got {periods:g})")
@@ -163,12 +165,12 @@ class ReleasedBar:
 
     def reaction(self, times: ArrayLike) -> FloatArray:
         """r ≥ 0: ½ for 1 ≤ t ≤ 2, and again each 3."""
-        phase = np.mod(np.asarray(times, dtype=np.float64), 3.0)
+        phase = np.mod(placed(0.0, times)[1], 3.0)
         return np.where((phase >= 1.0) & (phase <= 2.0), 0.5, 0.0)
 
     def impulse(self, times: ArrayLike) -> FloatArray:
         """∫r."""
-        t = np.asarray(times, dtype=np.float64)
+        _, t = placed(0.0, times)
         return np.asarray(0.5 * (np.floor(t / 3.0) + np.clip(np.mod(t, 3.0) - 1.0, 0.0, 1.0)))
 
     def _waves(self, x: ArrayLike, times: ArrayLike) -> tuple[FloatArray, FloatArray]:

@@ -157,7 +157,7 @@ def predict(impact: Impact, times: Iterable[float] | float = (), *, section: Sec
     ('continuous', 3.8, 'waves back from the ends')
     """
     _check(impact)
-    given = [times] if isinstance(times, int | float) else times
+    given = times if isinstance(times, Iterable) else [times]
     instants = [impact.checked_time("times", t) for t in given]
     loads = (impact.epsilon_alpha, impact.epsilon_psi, impact.epsilon_chi)
     solved = contact_parameters(impact.kappa_over_nu, *loads, axial=impact.epsilon_axial)

@@ -90,7 +90,7 @@ def _penetration(history: ImpactHistory) -> float | None:
     fallen = impact.velocity * history.time[first:]
     gap = history.array("gap", slice(first, None))
     if impact.opposite_wall is not None:  # flat, behind the apex at the start
-        front = impact.wall_clearance + 0.5 * impact.wall_curvature * (history.positions(0) - impact.first_touch) ** 2
+        front = impact.wall_clearance - 0.5 * impact.wall_curvature * (history.positions(0) - impact.first_touch) ** 2
         gap = np.minimum(gap, front + impact.opposite_wall - gap)
     depth = np.abs(gap[:, _near(history)].min(axis=1, initial=0.0))
     return float((depth[fallen > 0.0] / fallen[fallen > 0.0]).max(initial=0.0))

@@ -132,8 +132,8 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
     rise = _rise_between(gained, k) if impact.wall_stiffness is not None else 0.0
     begin = k + max(int(np.argmax(total[k:] > total[k])) - 1, 0)
     kept, supplied = (float(np.interp(last, time, values)) for values in (energy, work))
-    before = speed if impact.supported else _arrives(impact)
-    after = _mean_velocity(history, end) if impact.supported else before - (impulse - load * last) * speed
+    first = hit[0][0]
+    before, after = (_velocity(history, k, at) for k, at in ((first, float(time[first])), (end, last)))
     restitution, translation = -after / before, 0.5 * mass * after**2 / supplied
     return WholeImpact(
         restitution=restitution if left or len(contacts) > len(hit) else None,
@@ -156,7 +156,7 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
         push_rise=2.0 * rise / (mass * speed),
         supplied=supplied,
         spacing=float(time[end] - time[end - 1]) / unit,
-        drift=0.5 * abs(load) * float(time[end] - time[end - 1]),
+        drift=0.5 * abs(load * speed / before) * float(time[end] - time[end - 1]),
         until=until / unit,
         contacts=tuple((float(time[i]) / unit, 0.5 * float(time[j - 1] + time[j]) / unit) for i, j, _ in hit),
         returns=_returns(history, end),
@@ -215,10 +215,14 @@ def _arrives(impact: Impact) -> float:
     return float(impact.free_motion(0.0)(places, by_t=1) @ (1.0, 4.0, 1.0)) / 6.0  # Simpson's rule is exact
 
 
-def _mean_velocity(history: ImpactHistory, k: int) -> float:
-    """Velocity of the centre of mass into the wall at saved instant ``k``, m/s."""
-    x = history.positions(k)
-    return float(np.trapezoid(history.array("velocity", k), x) / (x[-1] - x[0]))
+def _velocity(history: ImpactHistory, k: int, time: float) -> float:
+    """Velocity of the centre of mass into the wall at saved instant ``k``, or at ``time``, s, before it and after its
+    last push, m/s."""
+    impact, x = history.impact, history.positions(k)
+    if impact.supported:  # by forces that no history holds
+        return float(np.trapezoid(history.array("velocity", k), x) / (x[-1] - x[0]))
+    gained = impact.load_within(impact.half_length) * time - float(history.array("total_impulse")[k])
+    return _arrives(impact) + gained / (impact.mass_per_length * impact.length)
 
 
 @dataclass(frozen=True)
@@ -255,17 +259,13 @@ def hits(history: ImpactHistory) -> list[Hit]:
     parts = [(i, k, wall) for wall, given in rows.items() for i, k in pushes(time, given.sum(axis=1), 0.0)]
     work = history.energy("work_of_loads")
     energy = history.array("kinetic_energy") + history.array("strain_energy") - work + history.energy("contact_energy")
-    mass = impact.mass_per_length * impact.length
-    gained = impact.load_within(impact.half_length) * time - history.array("total_impulse")
-    velocity = _arrives(impact) + gained / mass
-    if impact.supported:  # by forces that no history holds
-        velocity = np.array([_mean_velocity(history, k) for k in range(time.size)])
     found = []
     for group in _grouped(sorted(parts), impact, time):
         i, k, wall = group[0][0], group[-1][1], group[0][2]
         given = rows[wall][k] - rows[wall][i]
         size = np.abs(given)
         place = float(size @ np.abs(history.contact_positions(0))) / float(size.sum())
-        numbers = (place, given.sum(), velocity[i], velocity[k], energy[k] + work[k], energy[i] - energy[k])
+        before, after = (_velocity(history, n, float(time[n])) for n in (i, k))
+        numbers = (place, given.sum(), before, after, energy[k] + work[k], energy[i] - energy[k])
         found.append(Hit(wall, float(time[i]), 0.5 * float(time[k - 1] + time[k]), *map(float, numbers)))
     return found
