@@ -197,16 +197,11 @@ def _velocity(table: _ImpactTable, length: float, ends: tuple[str, str]) -> floa
 
 
 def _free_flight(table: _ImpactTable, values: Mapping[str, Any]) -> float:
-    """a₀, m/s²: as given, or that of free flight under gravity, which tension bends: a₀ = g cos θ − (EI q₀ + N K)/μ.
-
-    Without gravity and tension a beam of which no acceleration is given does not accelerate.
-    """
+    """a₀, m/s²: as given, or that of free flight under gravity: a₀ = g cos θ − (EI q₀ + N K)/μ."""
     gravity, force = _gravity(table), values["axial_force"]
     _only_with("impact.gravity_angle", table.gravity_angle or None, "impact.gravity", gravity)
     if table.acceleration is not None:
         return _one_of(table, 1)[1]
-    if not gravity and not force:
-        return 0.0
     bent = values["bending_stiffness"] * values["fourth_derivative"] + force * values["curvature"]
     return float(_towards_wall(table) - bent / values["mass_per_length"])
 

@@ -26,6 +26,8 @@ __all__ = [
 
 Array = NDArray[np.float64]
 
+NEAR = 1e-9  # of the half length: an edge of the wall so near the middle or an end of the beam lies there
+SLIVER = 0.01  # of an element: an edge of the wall that leaves less of it asks for other elements
 MAXIMUM_NODES = 2_000_000  # beyond this a mesh is a typing error, not a wish
 
 
@@ -59,11 +61,11 @@ def snapped(nodes: Array, wall_span: tuple[float, float]) -> Array:
 
     Raises ``ValueError`` where the elements are too large to have a node at every edge.
     """
-    moved = nodes.copy()
-    edges = np.unique(np.abs([edge for edge in wall_span if abs(edge) < nodes[-1]]))
-    for edge in edges[edges > 0.0]:
+    moved, near, edges = nodes.copy(), NEAR * nodes[-1], np.unique(np.abs(wall_span))
+    edges = edges[(edges > near) & (edges < nodes[-1] - near)]
+    for edge in edges:
         moved[1 + np.argmin(np.abs(nodes[1:-1] - edge))] = edge
-    if not np.all(np.isin(edges, moved)) or np.any(np.diff(moved) <= 0.0):
+    if not np.all(np.isin(edges, moved)) or np.any(np.diff(moved) < SLIVER * np.diff(nodes)):
         raise InputError(f"mesh has too large elements for a wall from {wall_span[0]!r} to "
                          f"{wall_span[1]!r} m: each edge takes a node of its own")  # fmt: skip
     return moved

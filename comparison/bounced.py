@@ -144,7 +144,7 @@ class Bounce:
         elif self.impact.net_load > 0.0:
             found.append(
                 "the loads bring the beam back to the wall; these numbers are those of the first hit, later ones may "
-                "be larger (--hits follows more)"
+                "be larger: bentbeam bounce --hits 3 lists three"
             )
         return [*found, *wide_bars(self.numbers), *self.runs.warnings, *others]
 

@@ -149,14 +149,11 @@ def follow_hits(impact: Impact, method: Method, count: int, *, first: ImpactHist
     first : the run that a first hit has been read from: the first row is its own.
     Raises ``ValueError`` for what the method refuses, and between two walls.
     """
-    if impact.opposite_wall is not None:
-        raise ValueError("--hits: follows one wall; between two, bentbeam simulate lists the hits")
     chosen, period = for_whole_beam(method, impact), LOWEST_PERIOD * impact.slow_time_scale
     fall = impact.net_load / impact.mass_per_length  # acceleration back to the wall, m/s²
     end, longest = 2.0 * period, LONGEST * impact.slow_time_scale
     while True:
-        save = round(INSTANTS * end / impact.slow_time_scale)
-        found = hits(chosen.simulate(impact, end_time=end, save=save))
+        found = hits(chosen.simulate(impact, end_time=end, save=separation_times(impact, end, INSTANTS)))
         over = [hit for hit in found if end - hit.end >= period]
         if len(over) >= count or end >= longest or (over and fall <= 0.0):
             return [*hits(first)[:1], *over[1:count]]

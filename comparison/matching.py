@@ -18,7 +18,7 @@ from bent_beam.checks import positive
 from bent_beam.errors import ANY_FAILURE, SimulationError
 from bent_beam.measure.balance import balance_of
 from bent_beam.measure.estimators import FirstOrderEstimate, LeadingEstimate, first_order, leading_order
-from bent_beam.measure.moments import Moments, moments
+from bent_beam.measure.moments import Moments, moments, unresolved_at_end
 from bent_beam.measure.numbers import MISSING, Number, number_of
 from bent_beam.measure.reduction import hold_of, pull_of, wall_peaks
 from bent_beam.method import Method, chosen_for, refined, simulated
@@ -56,8 +56,10 @@ def _reading(uniform: bool, history: ImpactHistory) -> dict[str, Any]:
     loaded ones are, or the noise that they share does not drop out."""
     peaks, balance = wall_peaks(history), balance_of(history)
     unit = (history.impact.wall_stiffness or 1.0) ** 0.25  # EI = μ = V₀ = 1
+    found = moments(history, uniform=uniform)
     return {
-        "moments": {name: values.tolist() for name, values in vars(moments(history, uniform=uniform)).items()},
+        "moments": {name: values.tolist() for name, values in vars(found).items()},
+        "unresolved": unresolved_at_end(history, found),
         "peak_force": None if peaks is None else peaks.force / unit,
         "pull": pull_of(history),
         "hold": hold_of(history),
@@ -104,7 +106,8 @@ class _Estimates:
     pressure: float = 0.0
 
     def leading(self, others: Sequence[_Estimates] = ()) -> LeadingEstimate:
-        return leading_order(_moments(self.run), companions=[_moments(o.run) for o in others])
+        companions, few = [_moments(other.run) for other in others], self.run.reading["unresolved"]
+        return leading_order(_moments(self.run), companions=companions, unresolved=few)
 
     def first(self, others: Sequence[_Estimates] = ()) -> FirstOrderEstimate | None:
         """``None`` where first order was not asked for."""
@@ -159,7 +162,9 @@ def answer(question: MatchQuestion, store: RunStore, limit: float | None = None)
             lost.append(f"{what}: {error}")
     leading, estimate = fine.leading(others), fine.first(others)
     warnings = [w for r in fine.runs for w in (*r.warnings, *r.reading["warnings"])] + lost
-    if leading.lambda0.spread > WIDE * max(leading.lambda0.known, 0.1) or leading.r0.spread > WIDE * leading.r0.known:
+    place, push = leading.lambda0, leading.r0
+    wide = (leading.front and place.spread > WIDE * max(place.known, 0.1)) or push.spread > WIDE * push.known
+    if wide and question.wall is None:  # before a wall that gives way they are no constants
         warnings.append(f"wide error bar: λ₀ = {leading.lambda0}, r₀ = {leading.r0}")
     if estimate is not None and estimate.r1.spread > WIDE_FIRST * max(abs(estimate.r1.known), 1.0):
         warnings.append(f"wide error bar: r₁ = {estimate.r1}")

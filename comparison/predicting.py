@@ -60,7 +60,7 @@ def instants_reading(times: tuple[float, ...], first_spread: bool, history: Impa
     before = [asdict(instant(history, t, first_spread=first_spread)) for t in earlier]
     found = asdict(instant(history, last, first_spread=first_spread))
     if last > 0.0 and abs(found["reaction"] or 0.0) < ROUND_OFF * abs(found["impulse"]) / last:
-        found["reaction"] = 0.0  # impulses of a beam in flight add up to round-off
+        found |= {"reaction": 0.0, "half_contact_length": None}  # impulses of a beam in flight add up to round-off
     return found | {"before": before, "balance": asdict(balance_of(history)), "energy": energy_at_end(history)}
 
 

@@ -14,7 +14,7 @@ from bent_beam.cases import Case
 from bent_beam.history import REFLECTED, ImpactHistory
 from bent_beam.hysteresis import converges
 from bent_beam.measure.estimators import leading_order
-from bent_beam.measure.moments import lift, moments
+from bent_beam.measure.moments import lift, moments, unresolved_at_end
 from bent_beam.measure.numbers import MISSING, Number
 from bent_beam.measure.reduction import hold_of, pull_of
 from bent_beam.measure.whole_impact import hits
@@ -84,7 +84,7 @@ class Simulated:
             "pull": pull_of(history),
             "hold": hold_of(history),
             **self._with_error("peak_moment"),
-            "peak_moment_place": largest["peak_moment_place"] * unit["length"],
+            "peak_moment_place": abs(largest["peak_moment_place"]) * unit["length"],
             "peak_moment_time": largest["peak_moment_time"] * unit["time"],
             **self._with_error("peak_stress"),
             "yield_stress": None if section is None else section.yield_stress,
@@ -160,7 +160,8 @@ def simulate_case(
 
 
 def _run(first_spread: bool, until: float, history: ImpactHistory) -> dict[str, Any]:
-    return instants_reading((until,), first_spread, history) | {"moments": moments(history.until(until))}
+    found, reading = moments(history.until(until)), instants_reading((until,), first_spread, history)
+    return reading | {"moments": found, "unresolved": unresolved_at_end(history.until(until), found)}
 
 
 def _whole_run(history: ImpactHistory) -> dict[str, Any]:
@@ -176,7 +177,7 @@ def _leading(runs: Runs) -> dict[str, Number]:
         return {}
     try:
         found, *others = (run.reading["moments"] for run in runs.every)
-        leading = leading_order(found, companions=others)
+        leading = leading_order(found, companions=others, unresolved=runs.run.reading["unresolved"])
     except ValueError:
         return {}
     return {"lambda0": leading.lambda0, "r0": leading.r0}

@@ -13,6 +13,7 @@ from copy import deepcopy
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import product
+from numbers import Real
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -108,6 +109,11 @@ def cases_of(
     count = int(np.prod([len(values) for values in vary.values()]))
     if not vary or not 1 <= count <= MOST:
         raise InputError(f"vary: takes at least one key with values, and {MOST} rows at most (got {count} rows)")
+    for key, values in vary.items():
+        if key.startswith("run."):
+            raise InputError(f"vary: {key} has no effect on a whole impact (got {shortened(list(values))})")
+        if len({str(value) for value in values}) < len(values):
+            raise InputError(f"vary: {key} has a value twice (got {shortened(list(values))})")
     combinations = [dict(zip(vary, values)) for values in product(*vary.values())]
     cases = [_case(tables, varied) for varied in combinations]
     if all(isinstance(case, InputError) for case in cases):
@@ -242,4 +248,4 @@ class SweepTable:
 
 
 def numeric(values: Sequence[Any]) -> bool:
-    return all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in values)
+    return all(isinstance(value, Real) and not isinstance(value, bool) for value in values)

@@ -74,11 +74,20 @@ def validity_text(document: dict[str, Any]) -> str:
         return f"The theory covers no time: {why}."
     before = BEFORE.get(document["valid_after"], "")
     start = f"from {milliseconds(document['valid_from'])} (before, {before}) " if before else ""
-    holds = f"The theory holds to 2 % {start}until {milliseconds(document['valid_until'])}: then {why}."
+    holds = (
+        f"The theory holds to 2 % {start}until {milliseconds(document['valid_until'])}: then {why}.{_leading(document)}"
+    )
     if document["force_until"] >= document["valid_until"]:
         return holds
     begin = milliseconds(max(document["force_until"], document["valid_from"]))
     return f"{holds}\nFrom {begin} on it has no reaction: waves from the ends swing the force."
+
+
+def _leading(document: dict[str, Any]) -> str:
+    """What the moment of the theory, of leading order, is not of."""
+    loads = any(document[f"epsilon_{load}"] for load in ("alpha", "psi", "chi", "axial"))
+    left_out = [word for word, acts in (("loads", loads), ("shear", document["model"] == "timoshenko")) if acts]
+    return f" Its moment leaves out {' and '.join(left_out)}." if left_out else ""
 
 
 def _instants(document: dict[str, Any]) -> str:
@@ -91,7 +100,7 @@ def _instants(document: dict[str, Any]) -> str:
     for row in rows:
         theory = ["-" if row[name] is None else f"{row[name] * scale:.4g}" for name, (scale, _) in units.items()]
         body.append([milliseconds(row["time"]), "theory" if row["valid"] else "theory, beyond its range", *theory])
-        if "simulation" in row:
+        if row.get("simulation"):
             cells = [_scaled(row["simulation"].get(name), scale) for name, (scale, _) in units.items()]
             body.append(["", "simulation", *cells])
     return text_table(head, body, left=(0, 1))
@@ -102,7 +111,7 @@ def _scaled(found: dict[str, Any] | None, scale: float) -> str:
 
 
 def _agreement(document: dict[str, Any]) -> list[str]:
-    if not any("simulation" in row for row in document["times"]):
+    if not any(row.get("simulation") for row in document["times"]):
         return []
     lines = [
         "Half contact and reaction of the simulation: means over a tenth of the time before and after. Moment and",

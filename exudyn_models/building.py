@@ -56,8 +56,8 @@ class Built:
     mbs, settings : for ``mbs.SolveDynamic(settings)``; container : the ``SystemContainer``, for the renderer.
     scale : deflections, velocities and forces in ``mbs`` over those of the impact. 1 with the true geometry; small in
         the linear limit, whose slopes must be. The sensors are of the impact itself.
-    sensors : numbers by name: ``force`` (N) and ``impulse`` (N s) of the wall on the whole beam, ``midpoint`` (m
-        towards the wall, m/s), ``energy`` (J: kinetic, strain, of the contact's springs).
+    sensors : numbers by name: ``force`` (N) and, with free ends, ``impulse`` (N s) of the wall on the whole beam,
+        ``midpoint`` (m towards the wall, m/s), ``energy`` (J: kinetic, strain, of the contact's springs).
     nodes, bodies, contacts : Exudyn's item numbers, from the middle (or the left end) on.
     """
 
@@ -132,8 +132,8 @@ def _chosen(method: ExudynModel, impact: Impact, end: float) -> Chosen:
     chosen = dataclasses.replace(method, contact=contact).chosen(impact, end)
     if not isinstance(chosen.integrator, Implicit) or chosen.integrator.time_step is not None:
         return chosen
-    integrator = dataclasses.replace(chosen.integrator, time_step=end / EQUAL_STEPS).refined(method.refine)
-    return dataclasses.replace(chosen, integrator=integrator)
+    equal = dataclasses.replace(chosen.integrator, time_step=end / EQUAL_STEPS, relative_step=None)
+    return dataclasses.replace(chosen, integrator=equal.refined(method.refine))
 
 
 def _equal_elements(impact: Impact, end: float) -> NodesMesh:
@@ -191,4 +191,5 @@ def _sensors(beam: Beam, contact: ContactRun, copies: float) -> dict[str, int]:
         asked: dict[str, Any] = {"name": read.__name__, "sensorUserFunction": lambda *_: read(), "storeInternal": True}
         return int(mbs.AddSensor(items.SensorUserFunction(**asked)))
 
-    return {read.__name__: sensor(read) for read in (force, impulse, midpoint, energy)}
+    reads = (force, midpoint, energy) if scaling.impact.supported else (force, impulse, midpoint, energy)
+    return {read.__name__: sensor(read) for read in reads}

@@ -24,7 +24,7 @@ from bent_beam.checks import between
 from bent_beam.errors import InputError
 from bent_beam.fields import Part, Quantity
 from exudyn_models.geometry import Array
-from exudyn_models.segments import Segment, checked_steps, growing_segments
+from exudyn_models.segments import Segment, growing_segments
 
 __all__ = [
     "DOPRI5", "INTEGRATORS", "RK44", "Averages", "GeneralizedAlpha", "Integrator", "Newmark", "Trapezoidal",
@@ -103,6 +103,11 @@ class Implicit(Integrator):
 
     def __post_init__(self) -> None:
         super().__post_init__()
+        if self.time_step is not None and self.relative_step is not None:
+            raise InputError(
+                "exudyn.integrator.time_step and relative_step exclude each other: give one "
+                f"(got {self.time_step!r} and {self.relative_step!r})"
+            )
         if self.flight_step is not None and self.flight_step < (self.time_step or math.inf):
             raise InputError(
                 f"exudyn.integrator.flight_step must be as long as a time_step that is given, at least (got "
@@ -116,10 +121,9 @@ class Implicit(Integrator):
 
     def segments(self, first: float, unit: float, stable: float) -> list[Segment]:
         if self.time_step is None:
-            return growing_segments(first, self.relative_step or self.default_step)
-        steps = 1.0 / max(min(1.0, self.time_step / unit), 1e-300)
-        checked_steps(steps)
-        return [Segment(0.0, 1.0, max(1, round(steps)))]
+            relative = self.relative_step or self.default_step
+            return growing_segments(first if self.relative_step is None else min(first, relative), relative)
+        return [Segment(0.0, 1.0, round(1.0 / max(min(1.0, self.time_step / unit), 1e-300)))]
 
 
 @dataclass(frozen=True)
@@ -204,8 +208,7 @@ class _Explicit(Integrator):
                 f"exudyn.integrator.time_step must not exceed the stable step {stable * unit:.4g} s of this "
                 f"mesh and contact (got {self.time_step!r})"
             )
-        checked_steps(1.0 / max(step, 1e-300))
-        return [Segment(0.0, 1.0, math.ceil(1.0 / step))]
+        return [Segment(0.0, 1.0, math.ceil(1.0 / max(step, 1e-300)))]
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ from typing import Any
 
 from bent_beam.errors import InputError
 
-__all__ = ["Segment", "checked_steps", "growing_segments"]
+__all__ = ["Segment", "growing_segments"]
 
 MAXIMUM_STEPS = 5_000_000
 LEFT_BY_HALVING = 1e-3  # of a step, what halving it may leave
@@ -39,22 +39,15 @@ class Segment:
             running.minStepSize = settings.minimumStepSize
 
 
-def checked_steps(count: float) -> None:
-    """``ValueError`` when a plan has more steps than any run takes."""
-    if not count <= MAXIMUM_STEPS:
-        raise InputError(
-            f"exudyn.integrator.time_step or relative_step is too small: {count:.3g} steps, {MAXIMUM_STEPS:.2g} are "
-            "the most"
-        )
-
-
 def growing_segments(first: float, relative: float) -> list[Segment]:
     """Segments over 0 ≤ t ≤ 1: steps of ``first``, then of ``relative``·t.
 
     A new step size costs a factorisation: it changes by ``CHANGE`` at a time, or by what ``EVEN`` steps make of it.
     """
     even = min(1.0 / max(first, 1e-300), 1.0 / relative)
-    checked_steps(even + math.log(max(relative * even, 1.0)) / math.log1p(relative))
+    count = even + math.log(max(relative * even, 1.0)) / math.log1p(relative)
+    if not count <= MAXIMUM_STEPS:
+        raise InputError(f"exudyn.integrator.relative_step asks for {count:.3g} steps, at most {MAXIMUM_STEPS:.2g} fit")
     segments: list[Segment] = []
     t, step, change = 0.0, first, max(CHANGE, 1.0 + EVEN * relative)
     while t < 1.0 - 1e-12:

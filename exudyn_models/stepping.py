@@ -97,11 +97,11 @@ class Stepping:
         self.segments = integrator.segments(crossing, scaling.end_time, self.stable)
         self.flight = (getattr(integrator, "flight_step", None) or 0.0) / scaling.end_time
         steps = sum(segment.steps for segment in self.segments)
-        affordable("exudyn.integrator and mesh", steps, nodes, targets.size, MOST_WORK)
         last = float(targets[-1])
         if until is not None:  # most beams have left after a T*
             last = min(last, scaling.impact.slow_time_scale / scaling.end_time)
         steps = round(steps * last)
+        affordable("exudyn.integrator and mesh", steps, nodes, targets.size, MOST_WORK)
         if (expected := SECONDS * steps * nodes) > LONG:
             so_long = "up to" if self.flight else "about"
             LOG.warning("%s %.2g minutes: %d steps of %d nodes", so_long, expected / 60.0, steps, nodes)

@@ -14,7 +14,7 @@ Signs are judged against round-off: p against the terms of its equation, a gap a
 
 from __future__ import annotations
 
-from hermite_fe.banded import FADED, PAD, copy
+from hermite_fe.banded import FADED, copy
 from hermite_fe.compiled import Array, compiled, compiled_within
 from hermite_fe.constraints import Constraints, Rows, Solver, count_rounds, exchange, update
 
@@ -134,22 +134,20 @@ def solve_constrained(
     """Solve for x (dofs,) and ``conditions.p`` from the guess ``conditions.closed``; returns SOLVED, SINGULAR or
     CYCLING. After ``most_rounds`` the fall-back (:func:`exchange_one`) begins anew with all constraints open."""
     begin(solver, rows, conditions)
-    p, everything, status, rounds = conditions.p, solver.y.size - PAD - 1, CYCLING, 0
+    p, status, rounds = conditions.p, CYCLING, 0
     before = fewest = p.size + 1
-    changed, patience, tolerance, latest = everything, PATIENCE, ROUND_OFF, -1
+    patience, tolerance, latest = PATIENCE, ROUND_OFF, -1
     while status == CYCLING and rounds < most_rounds + MOST_EXCHANGES * (p.size + 1) and tolerance <= MOST_LENIENT:
         if rounds == most_rounds:
             for j in range(p.size):
                 conditions.closed[j], solver.reached[j] = False, 0.0
             begin(solver, rows, conditions)
-            changed = everything
         rounds += 1
-        if not update(solver, rows, b, conditions.target, changed):
+        if not update(solver, rows, b, conditions.target):
             status = SINGULAR
             break
         take_solution(solver, x)
         count, last = find_wrong(solver, rows, conditions, b, x, tolerance)
-        changed = -1 if rounds < most_rounds else everything
         patience = PATIENCE if count < fewest else patience - 1
         if count == 0:
             status = SOLVED
@@ -201,7 +199,7 @@ def solve_free(solver: Solver, rows: Rows, b: Array, x: Array) -> int:
     for j in range(solver.closed.size):
         if solver.closed[j]:
             exchange(solver, rows, j)
-    if not update(solver, rows, b, b, solver.y.size - PAD - 1):  # no target is read where no constraint is closed
+    if not update(solver, rows, b, b):  # no target is read where no constraint is closed
         return SINGULAR
     take_solution(solver, x)
     return SOLVED

@@ -155,22 +155,22 @@ def factor(S: Array, fixed: Flags, sign: Array, last: int, U: Array) -> bool:
 
 
 @compiled_within
-def substitute_forward(U: Array, right: Array, last: int, z: Array) -> None:
-    """Solve U z = right for unknown ``last`` and all before it, z beyond being valid."""
-    z1, z2, z3, z4 = z[last + 1], z[last + 2], z[last + 3], z[last + 4]
-    for k in range(last, PAD - 1, -1):
-        value = (right[k] - U[4, k] * z4 - U[3, k] * z3 - U[2, k] * z2) - U[1, k] * z1
-        z[k] = value
+def substitute_forward(U: Array, y: Array) -> None:
+    """Solve U z = y, z in place of y."""
+    z1 = z2 = z3 = z4 = 0.0
+    for k in range(y.size - PAD - 1, PAD - 1, -1):
+        value = (y[k] - U[4, k] * z4 - U[3, k] * z3 - U[2, k] * z2) - U[1, k] * z1
+        y[k] = value
         z4, z3, z2, z1 = z3, z2, z1, value
 
 
 @compiled_within
-def substitute_back(U: Array, z: Array, x: Array) -> None:
-    """Solve D Uᵀ x = z."""
+def substitute_back(U: Array, y: Array) -> None:
+    """Solve D Uᵀ x = y, x in place of y."""
     x1 = x2 = x3 = x4 = 0.0
-    for k in range(PAD, x.size - PAD):
+    for k in range(PAD, y.size - PAD):
         if k % BLOCK == 0 and abs(x1) + abs(x2) + abs(x3) + abs(x4) < FADED:
             x1 = x2 = x3 = x4 = 0.0
-        value = (z[k] * U[0, k] - U[4, k - 4] * x4 - U[3, k - 3] * x3 - U[2, k - 2] * x2) - U[1, k - 1] * x1
-        x[k] = value
+        value = (y[k] * U[0, k] - U[4, k - 4] * x4 - U[3, k - 3] * x3 - U[2, k - 2] * x2) - U[1, k - 1] * x1
+        y[k] = value
         x4, x3, x2, x1 = x3, x2, x1, value

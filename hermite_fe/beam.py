@@ -25,7 +25,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.polynomial import Polynomial
 
-from bent_beam.checks import positive
+from bent_beam.checks import non_negative, positive
 from bent_beam.errors import InputError
 from bent_beam.meshes import checked_nodes
 from hermite_fe.banded import stiff_product
@@ -66,8 +66,7 @@ class HermiteBeam:
     bending_stiffness : EI, N m². mass_per_length : μ, kg/m. shear_stiffness : κ_sGA, N; None: without shear.
     rotary_inertia : J, kg m, with shear.
 
-    Raises ``ValueError`` naming the field for non-increasing nodes, one element, or a property that is not
-    positive.
+    Raises ``ValueError`` naming the field for non-increasing nodes, one element, or a property out of its range.
     """
 
     nodes: Array
@@ -80,6 +79,9 @@ class HermiteBeam:
         object.__setattr__(self, "nodes", checked_nodes(self.nodes))
         positive("bending_stiffness", self.bending_stiffness)
         positive("mass_per_length", self.mass_per_length)
+        non_negative("rotary_inertia", self.rotary_inertia)
+        if self.shear_stiffness is not None:
+            positive("shear_stiffness", self.shear_stiffness)
 
     @property
     def lengths(self) -> Array:

@@ -177,7 +177,7 @@ class Solver(NamedTuple):
 
     unknown : (dofs,), the index of a dof among the unknowns; row_unknown : (rows,), the one that a constraint fixes.
     S, U : (5, unknowns + 2 PAD); sign, fixed : (unknowns + 2 PAD,), see :func:`hermite_fe.banded.factor`.
-    right, forward, y : (unknowns + 2 PAD,), the right-hand side, and the solution after either substitution.
+    y : (unknowns + 2 PAD,), the right-hand side, then the solution.
     closed : (rows,), the constraints as the factors have them; excess : (rows,), by how much each sign is wrong.
     reached : (rows,), reactions on the way of the fall-back (:func:`hermite_fe.active_set.exchange_one`).
     stale : (1,), the last unknown whose factors are out of date, −1: none. step : (3,), h (s), c and k of S.
@@ -190,8 +190,6 @@ class Solver(NamedTuple):
     U: Array
     sign: Array
     fixed: Flags
-    right: Array
-    forward: Array
     y: Array
     closed: Flags
     excess: Array
@@ -224,7 +222,7 @@ def solver_of(system: System) -> Solver:
         fixed[row_unknown], sign[row_unknown] = True, -1.0
     return Solver(
         unknown=unknown, row_unknown=row_unknown, S=np.zeros((5, size)), U=U, sign=sign, fixed=fixed,
-        right=np.zeros(size), forward=np.zeros(size), y=np.zeros(size), closed=np.zeros(m, np.bool_),
+        y=np.zeros(size), closed=np.zeros(m, np.bool_),
         excess=np.zeros(m), reached=np.zeros(m), stale=np.array([size - PAD - 1]), step=np.full(3, np.nan),
         rounds=np.zeros(3, np.int64),
     )  # fmt: skip
@@ -261,7 +259,7 @@ def exchange(solver: Solver, rows: Rows, j: int) -> None:
 @compiled_within
 def right_side(solver: Solver, rows: Rows, b: Array, target: Array) -> None:
     """The right-hand side of all unknowns, with the terms of known values moved to it."""
-    right, fixed, S = solver.right, solver.fixed, solver.S
+    right, fixed, S = solver.y, solver.fixed, solver.S
     for i in range(b.size):
         right[solver.unknown[i]] = 0.0 if fixed[solver.unknown[i]] else b[i]
     for j in range(solver.row_unknown.size):
@@ -279,17 +277,13 @@ def right_side(solver: Solver, rows: Rows, b: Array, target: Array) -> None:
 
 
 @compiled_within
-def update(solver: Solver, rows: Rows, b: Array, target: Array, changed: int) -> bool:
-    """Solve for y with the constraints as they are closed now; False where S is singular.
-
-    changed : beyond this unknown the right-hand side is as it was in the solution before.
-    """
-    stale = solver.stale[0]
-    if stale >= 0 and not factor(solver.S, solver.fixed, solver.sign, stale, solver.U):
+def update(solver: Solver, rows: Rows, b: Array, target: Array) -> bool:
+    """Solve for y with the constraints as they are closed now; False where S is singular."""
+    if not factor(solver.S, solver.fixed, solver.sign, solver.stale[0], solver.U):
         solver.step[0] = np.nan
         return False
     solver.stale[0] = -1
     right_side(solver, rows, b, target)
-    substitute_forward(solver.U, solver.right, max(changed, min(stale + 4, solver.y.size - PAD - 1)), solver.forward)
-    substitute_back(solver.U, solver.forward, solver.y)
+    substitute_forward(solver.U, solver.y)
+    substitute_back(solver.U, solver.y)
     return True

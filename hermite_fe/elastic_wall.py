@@ -111,16 +111,22 @@ def bernstein(a: float, b: float, c: float, d: float, at: float) -> float:
 
 
 @compiled_within
+def coefficients(springs: Springs, q: Array, e: int) -> tuple[float, float, float, float]:
+    """Bernstein's of p of element e: between the smallest and the largest lies p."""
+    i, third = 2 * e, springs.lengths[e] / 3.0
+    a, left, d, right = (sunk(springs, q, i), sunk(springs, q, i + 1),
+                         sunk(springs, q, i + 2), sunk(springs, q, i + 3))  # fmt: skip
+    angle = springs.shares[e] * ((d - a) / springs.lengths[e] - 0.5 * (left + right))
+    return a, a + third * (left + angle), d - third * (right + angle), d
+
+
+@compiled_within
 def add_zeros(springs: Springs, q: Array, e: int, places: Array, count: int) -> int:
     """Add the places 0 < ξ < 1 where p of element e changes sign to ``places``; returns how many there are now.
 
     Between its turning points a cubic is monotone; a change of sign there is found by halving.
     """
-    i, third = 2 * e, springs.lengths[e] / 3.0
-    a, left, d, right = (sunk(springs, q, i), sunk(springs, q, i + 1),
-                         sunk(springs, q, i + 2), sunk(springs, q, i + 3))  # fmt: skip
-    angle = springs.shares[e] * ((d - a) / springs.lengths[e] - 0.5 * (left + right))
-    b, c = a + third * (left + angle), d - third * (right + angle)
+    a, b, c, d = coefficients(springs, q, e)
     if max(a, b, c, d) <= 0.0 or min(a, b, c, d) >= 0.0:
         return count
     first, bend, curve = b - a, c - 2.0 * b + a, d - 3.0 * c + 3.0 * b - a  # p′/3 = first + 2 bend ξ + curve ξ²
@@ -168,6 +174,8 @@ def push(
     total, loss, touched, places = 0.0, 0.0, -1, np.zeros(8)
     peaks[PENETRATION] = peaks[PRESSURE] = 0.0
     for e in range(springs.first, springs.last):
+        if max(coefficients(springs, q, e)) <= 0.0 and max(coefficients(springs, new, e)) <= 0.0:
+            continue  # off the wall
         length, i, count = springs.lengths[e], 2 * e, split(springs, q, new, e, places)
         for piece in range(count - 1):
             span = places[piece + 1] - places[piece]

@@ -75,11 +75,6 @@ class HermiteFE(Composition):
         """
         chosen = self
         if not spreads(impact):
-            if self.domain is not None:
-                raise InputError(
-                    "domain cuts a free beam that touches at its middle alone, before one long wall: leave it out here "
-                    f"(got {self.domain!r})"
-                )
             chosen = self.for_whole_beam(impact, impact.checked_end_time(end_time))
         return simulate(impact, end_time=end_time, save=save, progress=progress, **made_of(chosen))
 
@@ -111,6 +106,11 @@ class HermiteFE(Composition):
     def for_whole_beam(self, impact: Impact, end_time: float | None = None) -> Self:
         """A copy whose open parts are those of a whole beam, short enough for a run that ends at ``end_time``, s; its
         ``refine`` is worked in."""
+        if self.domain is not None:
+            raise InputError(
+                "domain cuts a free beam that touches at its middle alone, before one long wall, at first: "
+                f"leave it out here (got {self.domain!r})"
+            )
         wall, mesh = wall_scales(impact), self.mesh
         if mesh is None:
             mesh = UniformMesh(whole_beam.element(impact, end_time))
@@ -118,9 +118,10 @@ class HermiteFE(Composition):
         shortest = float(np.diff(mesh.nodes(impact.half_length)).min())
         contact = self.contact or NodeContact()
         chosen = self.integrator or whole_beam.scheme(impact, contact, shortest, end_time)
-        integrator = chosen.with_defaults(impact)  # before it is refined: what is open cannot be
+        integrator = chosen.with_defaults(impact, end_time)  # before it is refined: what is open cannot be
         if integrator.time_step is None and wall is not None:
-            integrator = integrator.with_steps(resolution.ELASTIC_STEP * wall.time, 0.0).refined(self.refine)
+            step = resolution.ELASTIC_STEP * min(wall.time, impact.slow_time_scale)
+            integrator = integrator.with_steps(step, 0.0).refined(self.refine)
         elif integrator.time_step is None:
             step = whole_beam.step(impact, shortest)
             integrator = integrator.refined(self.refine**2).with_steps(step, 0.0)
@@ -133,7 +134,6 @@ class HermiteFE(Composition):
             contact=contact if wall is None else self.contact,
             far_field=self.far_field or GridViscosity(viscosity=0.0),
             full_beam=self.full_beam or impact.off_centre,
-            domain=None,
             refine=1.0,
         )
 

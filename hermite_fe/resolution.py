@@ -102,7 +102,8 @@ class Choice:
 
     def parts(self) -> dict[str, Any]:
         """By the names that :class:`Composition` has for them."""
-        return {name: getattr(self, name) for name in ("mesh", "integrator", "contact", "far_field", "mass")}
+        parts = {name: getattr(self, name) for name in ("mesh", "integrator", "contact", "far_field", "mass")}
+        return parts | ({"contact": None} if self.integrator.elastic else {})  # the wall's own springs
 
 
 def choose(impact: Impact, end_time: float, parts: Composition | None = None) -> Choice:
@@ -135,7 +136,10 @@ def choose(impact: Impact, end_time: float, parts: Composition | None = None) ->
         raise InputError(
             f"contact.{name} has no effect with this integrator, whose rows may always open (got {value!r})"
         )
-    far_field = parts.far_field or GridViscosity(end="free" if parts.domain is None else "following")
+    end = "free" if parts.domain is None else "following"
+    far_field = parts.far_field or (
+        GridViscosity(end=end) if integrator.damped else GridViscosity(end=end, viscosity=0.0)
+    )
     if parts.domain is not None and far_field.end != "following":
         raise InputError(
             f'domain cuts the beam where it goes on: far_field.end must be "following" (got {far_field.end!r})'
@@ -204,7 +208,7 @@ def chosen_integrator(impact: Impact, end_time: float, nodes: Array, integrator:
         first = integrator.elements_in_first_front**2 * resolved
         step = min(max(first, 1e-10 * end_time), LONGEST_FIRST_STEP * end_time)
         growth = LARGEST_STEP
-    return integrator.with_steps(step, growth).with_defaults(impact)
+    return integrator.with_steps(step, growth).with_defaults(impact, end_time)
 
 
 def chosen_domain(impact: Impact, end_time: float) -> float | None:

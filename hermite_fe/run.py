@@ -83,6 +83,8 @@ class Stepper:
         law, kind = law or ContactLaw(), type(integrator).__name__
         if law.restitution > 0.0 and not integrator.rebounds:
             raise InputError(f"{kind} has no impact law: restitution must be 0 (got {law.restitution!r})")
+        if (law.hold or law.hold_until) and not integrator.holds:
+            raise InputError(f"integrator.kind: {kind} holds nothing: hold and hold_until must be 0")
         if not np.all(np.asarray(law.strength) >= 0.0):
             raise InputError(f"strength must be 0 or more, N (got {float(np.min(law.strength))!r})")
         if np.any(law.strength) and not integrator.sticks:

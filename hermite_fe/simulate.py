@@ -124,11 +124,10 @@ def simulate(
 
 def settings_of_run(impact: Impact, choice: resolution.Choice, run: Trajectory) -> dict[str, Any]:
     """The parts of a run as text, what was held, and how many rounds the active set took."""
-    branches, soft = branches_of(impact), impact.wall_stiffness is not None
-    parts = choice.parts() | ({"contact": None} if soft else {})  # a wall's springs need none
+    branches = branches_of(impact)
     return {
         **({} if branches is None else {"hysteretic_loss": {"loss": impact.hysteretic_loss, **branches.about}}),
-        **{name: part and describe(part) for name, part in parts.items()},
+        **{name: part and describe(part) for name, part in choice.parts().items()},
         "hold": hold_report(run),
         "mean_iterations": run.mean_iterations,
         "most_iterations": run.most_iterations,

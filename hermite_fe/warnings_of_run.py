@@ -18,6 +18,7 @@ __all__ = ["lift_warnings", "rounds_warnings", "warnings_of_run"]
 
 ELEMENTS_PER_FRONT = 2.0  # fewer in ℓ deserve a warning
 MOST_ROUNDS = 100  # of the active set in one step; sound runs take ten or so
+BY_GRID = "; grid viscosity damps it, of which HermiteFE().for_whole_beam(impact) has none"
 LARGEST_LIFT = 1e-2  # of V₀t; r₀ may be too large by as much (docs/numerics.md)
 DAMPED = 4.0  # elements within √(cη), or within l_s, from which on all schemes lift a zone alike (within a fifth)
 
@@ -90,8 +91,8 @@ def end_warnings(impact: Impact, end_time: float, nodes: Array, far_field: FarFi
     if returning.size:
         out.append(
             f"{REFLECTED} (x = {half:.3g} m) and be back at the contact from about "
-            f"t = {float(returning.min()):.2g} s on, before the run ends at {end_time:.2g} s: from then on "
-            "it is the impact of this beam, which no theory of an endless one covers"
+            f"t = {float(returning.min()):.2g} s on: from then on it is the impact of this beam, which no theory of an "
+            f"endless one covers{BY_GRID if getattr(far_field, 'viscosity', 0.0) else ''}"
         )
     far = nodes > 1.5 * place
     free = impact.free_motion(impact.relative_curvature)(nodes, end_time)

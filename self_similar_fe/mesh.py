@@ -77,11 +77,11 @@ class ExpandingMesh(Part):
         """The same mesh with elements and steps ``factor`` times shorter."""
         return dataclasses.replace(
             self,
-            front_resolution=self.front_resolution / factor,
-            growth=self.growth / factor,
-            elements_per_wave=round(self.elements_per_wave * factor),
-            interior_elements=round(self.interior_elements * factor),
-            step_ratio=self.step_ratio / factor,
+            front_resolution=min(0.5, self.front_resolution / factor),
+            growth=min(0.2, self.growth / factor),
+            elements_per_wave=max(6, round(self.elements_per_wave * factor)),
+            interior_elements=max(4, round(self.interior_elements * factor)),
+            step_ratio=min(0.5, self.step_ratio / factor),
         )
 
 

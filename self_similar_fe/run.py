@@ -62,11 +62,11 @@ def simulate_expanding(
     absorber took. Raises :class:`bent_beam.SimulationError` when the active set does not settle, the front leaves the
     fine mesh, or a number is no longer finite.
     """
-    wanted = save if isinstance(save, int) else np.size(save)
-    whole("save", wanted, 2)
+    given: Any = save
+    wanted = whole("save", given if np.ndim(save) == 0 else np.size(save), 2)
     began = clock.perf_counter()
     try:
-        run = Run(impact, mesh, end_time, int(wanted))
+        run = Run(impact, mesh, end_time, wanted)
     except ArithmeticError as error:
         raise SimulationError(str(error), time=0.0, step=0, advice="a larger mesh.front_resolution") from None
     failure: ArithmeticError | None = None

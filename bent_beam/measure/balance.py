@@ -161,7 +161,7 @@ def _second_moment(history: ImpactHistory, missing: Array | None) -> float | Non
     if missing is None or not _is_whole(history) or lossy or impact.wall_in_part or impact.axial_force:
         return None
     turning = "slope" if impact.shear_stiffness is None else "angle"
-    if (bent and _ends_follow(history)) or turning not in history:
+    if (bent and _ends_follow(history)) or _is_arc(history) or turning not in history:
         return None
     x, both = history.positions(0), 2.0 / history.sides
     angles = history.array(turning) + impact.curvature * x
@@ -211,6 +211,11 @@ def _is_whole(history: ImpactHistory) -> bool:
     return "position" not in history and "velocity" in history and not absorbs
 
 
+def _is_arc(history: ImpactHistory) -> bool:
+    """Whether the beam lies along an arc, longer than its places along x say."""
+    return (history.settings.get("geometry") or {}).get("kind") == "TrueGeometry"
+
+
 def _ends_follow(history: ImpactHistory) -> bool:
     """Whether the ends carry the forces of the free motion, as the run says of its far field or of its ends."""
     far, ends = history.settings.get("far_field"), history.settings.get("ends", "free")
@@ -239,7 +244,7 @@ def _integral(x: Array, v: Array) -> Array:
 def _initial_energy(history: ImpactHistory) -> float | None:
     impact = history.impact
     moving = impact.curvature_rate or impact.rotation or impact.supported  # velocities differ along the beam
-    if moving or "position" in history or history.time[0] > 0.0:
+    if moving or "position" in history or history.time[0] > 0.0 or _is_arc(history):
         return None
     whole = 0.5 * impact.mass_per_length * _length(history) * impact.velocity**2
     return float(history.array("kinetic_energy")[0]) / whole - 1.0

@@ -93,8 +93,12 @@ def _numbers(best: Array, companions: Sequence[Array], known: Mapping[str, Array
 # --- leading order ---------------------------------------------------------------------------------------------
 
 
-def leading_order(found: Moments, *, window: float = 10.0, companions: Sequence[Moments] = ()) -> LeadingEstimate:
+def leading_order(
+    found: Moments, *, window: float = 10.0, companions: Sequence[Moments] = (), unresolved: float = 0.0
+) -> LeadingEstimate:
     """λ₀ and r₀ from the last factor ``window`` of time of one run at ε = 0.
+
+    unresolved : l*, :func:`bent_beam.measure.moments.unresolved` at the end; λ₀ is no surer than that over √τ.
 
     companions : the same run with elements and steps twice as long (and, for thorough bars, twice as short). What mesh,
     steps and start do to the answer falls at least like Δx, so that the difference from the coarser run is the size of
@@ -122,6 +126,7 @@ def leading_order(found: Moments, *, window: float = 10.0, companions: Sequence[
     known = {
         "drift": (FACTOR if companions else DRIFT_ALONE) * drift,
         "least": LEAST_LEADING * np.maximum(best, [0.0, 0.1]),
+        "element": np.array([0.0, unresolved / math.sqrt(times[1])]),
         "lift": np.array(lift_shares(lift)) * best,
     }
     r0, lambda0 = _numbers(best, [_leading_values(companion, window)[0] for companion in companions], known)

@@ -19,7 +19,7 @@ from bent_beam.history import ImpactHistory
 
 __all__ = [
     "Moments", "element_at", "first_front", "half_contact_length", "jump_of_rim", "lift", "local_front",
-    "mean_reaction", "moments", "one_side",
+    "mean_reaction", "moments", "one_side", "unresolved", "unresolved_at_end",
 ]  # fmt: skip
 
 Array = NDArray[np.float64]
@@ -27,6 +27,7 @@ Array = NDArray[np.float64]
 ZONE = 0.7  # of the front: what pushes there is what the zone behind the front bears
 AROUND = 0.1  # of the time, before and after
 JUMP = 0.05  # of a rim, between two saved instants: a smooth one moves on by a tenth of that
+FEW = 3  # elements
 PUSH = 1e-9  # of the largest impulse of a contact point: less is round-off
 
 
@@ -177,19 +178,37 @@ def local_front(time: Array, impulse: Array, moment: Array) -> Array:
     return np.asarray(_carried(centroids, time[first], time))
 
 
-def first_front(history: ImpactHistory, k: int) -> float:
-    """Half contact length, m, at instant ``k`` of the first spread of a zone, of contact points that stay where they
-    are: the centroid of what was pushed over the last tenth of the time, less what the zone behind bears; 0 without a
-    push.
+def first_front(history: ImpactHistory, time: float) -> tuple[float, float]:
+    """Half contact length, m, at ``time``, s, in the first spread of a zone, of contact points that stay where they
+    are, and by how much it differs from that of a front ~ √t, m; 0 without a push.
+
+    The centroids of what was pushed over the tenth of the time before, and the tenth after, lie where the front was at
+    the means of √t: between them it is a power of time. Where nothing follows it is carried on as √t.
+    """
+    instants = history.time
+    k = int(np.argmin(np.abs(instants - time)))
+    if k == 0:
+        return 0.0, 0.0
+    windows = [(int(_last_tenth(instants)[k]), k)]
+    if k + 1 < instants.size:
+        windows.append((k, max(int(np.searchsorted(instants, (1.0 + AROUND) * instants[k], side="right")) - 1, k + 1)))
+    fronts = [_zone_end(history, *window) for window in windows]
+    means = [float(np.sqrt(instants[list(window)]).mean()) for window in windows]
+    steady = fronts[0] * time**0.5 / means[0]
+    if len(windows) == 1 or min(fronts) <= 0.0:
+        return steady, 0.0
+    power = np.log(fronts[1] / fronts[0]) / np.log(means[1] / means[0])
+    front = fronts[0] * float((time**0.5 / means[0]) ** power)
+    return front, abs(front - steady)
+
+
+def _zone_end(history: ImpactHistory, first: int, k: int) -> float:
+    """The centroid, m, of what was pushed between two saved instants, less what the zone behind the front bears.
 
     Within :data:`ZONE` of where the front was at first, what was pushed is summed; the rest of the zone is taken to
     bear as much per length. Nothing is assumed of a zone that damping or its start keeps off the wall.
     """
-    if k == 0:
-        return 0.0
-    first = _last_tenth(history.time)[k]
-    begin, end = history.time[first], history.time[k]
-    share = ZONE * float(_carried(1.0, end, begin))  # the front at first over the centroid
+    share = ZONE * float(_carried(1.0, history.time[k], history.time[first]))  # the front at first over the centroid
     pushed = history.array("impulse", k) - history.array("impulse", first)
     places = np.abs(history.contact_positions(k))
     force, moment = float(pushed.sum()), float(pushed @ places)
@@ -202,7 +221,7 @@ def first_front(history: ImpactHistory, k: int) -> float:
             break
         left = moment - float(pushed[behind] @ places[behind]) - ahead * 0.5 * (1.0 + share) * front
         front = left / (force - borne - ahead)
-    return max(float(_carried(front, begin, end)), 0.0)
+    return max(front, 0.0)
 
 
 def half_contact_length(history: ImpactHistory, k: int) -> float | None:
@@ -242,6 +261,18 @@ def mean_reaction(history: ImpactHistory, at: float) -> float | None:
         return None
     before, after = np.interp(span, time, total)
     return float((after - before) / (span[1] - span[0]))
+
+
+def unresolved(history: ImpactHistory, k: int, front: float) -> float:
+    """Length, m, of the elements of which a front at ``front`` m has passed less than :data:`FEW`; 0 of others."""
+    element = element_at(history, k, front)
+    return element if front < FEW * element else 0.0
+
+
+def unresolved_at_end(history: ImpactHistory, found: Moments) -> float:
+    """The same at the last instant, l*."""
+    length = history.impact.length_scale
+    return unresolved(history, -1, float(found.front[-1]) * length) / length
 
 
 def element_at(history: ImpactHistory, k: int, place: float) -> float:

@@ -21,8 +21,9 @@ MAY_BE_HELD = 0.01  # of the run: while this lasts, a start may be held
 
 
 class PeakMoment(NamedTuple):
-    """Largest bending moment, N m (its size), its place, m, and its time, s (the next saved instant); ``midspan`` : the
-    largest at x = 0, N m."""
+    """Largest bending moment, N m (its size), its place, m, and its time, s (the middle of its saved interval).
+
+    midspan : the largest at x = 0, N m."""
 
     moment: float
     place: float
@@ -100,13 +101,16 @@ def peak_moment(history: ImpactHistory, until: float | None = None) -> PeakMomen
         sizes = history.array("largest_moment", slice(first, count))
         k = first + int(np.argmax(sizes))
         place, middle = history.array("largest_moment_place")[k], history.array("largest_midspan_moment")[first:count]
-        return PeakMoment(float(sizes.max()), float(place), float(history.time[k]), float(middle.max()))
+        time = float(history.time[k - 1 : k + 1].mean())
+        return PeakMoment(float(sizes.max()), float(place), time, float(middle.max()))
     best = PeakMoment(0.0, 0.0, float(history.time[0]), 0.0)
     midspan = 0.0
     moving = "position" in history
     for first in range(1, count, 1 if moving else CHUNK):
         moments, place = history.bending_moments(first if moving else slice(first, min(first + CHUNK, count)))
         sizes = np.abs(moments).reshape(-1, *place.shape)
+        if moving:  # with a beam without end
+            sizes = np.where(np.abs(place) <= history.impact.half_length, sizes, 0.0)
         j, *worst = np.unravel_index(int(np.argmax(sizes)), sizes.shape)
         if sizes[j, *worst] > best.moment:
             best = PeakMoment(float(sizes[j, *worst]), float(place[*worst]), float(history.time[first + j]), 0.0)

@@ -91,6 +91,7 @@ def _asked(
 ) -> list[tuple[Case, Method]]:
     """The case, or that of the two numbers, with the method of each path."""
     from bent_beam.cases import load_case
+    from comparison.methods import methods_of
 
     if (case is None) == (kappa_over_nu is None):
         raise InputError("bounce takes a case file or --kappa-over-nu, one of them")
@@ -98,11 +99,10 @@ def _asked(
         if damping is not None:
             raise InputError(f"--damping {damping!r} goes with --kappa-over-nu; in a case set beam.damping (s)")
         loaded = load_case(case, assignments)
-        return [(loaded, loaded.method(path)) for path in paths]
+        return [(loaded, method) for method in methods_of(paths, (), loaded)]
     if damping is None:
         raise InputError("--damping is required next to --kappa-over-nu (eta/T*; 0 for none)")
     from comparison.bouncing import case_of, problem
-    from comparison.methods import methods_of
 
     beam = case_of(problem(kappa_over_nu or 0.0, damping))
     return [(beam, method) for method in methods_of(paths, assignments)]

@@ -103,8 +103,9 @@ class Beam(ABC):
         return min(float(ROUNDED * np.finfo(float).eps * forces.max()), MOST_ROUNDED * velocity)
 
     def axial_round_off(self) -> float:
-        """Force along a beam under an axial force that means nothing: a strain is a difference of places. 0 without."""
-        if not self.scaling.axial_force:
+        """Force along a stiff beam that means nothing: a strain is a difference of places. 0 of a soft one, as in the
+        linear limit without an axial force."""
+        if not (self.scaling.axial_force or self.shape.slender):
             return 0.0
         places = float(np.abs(self.shape.s).max()) / self.lengths.min()
         return float(ROUNDED * np.finfo(float).eps * self.axial_stiffness * places)

@@ -43,6 +43,9 @@ class Integrator(Part, ABC):
     elastic: ClassVar[bool] = False
     """Whether the scheme is for a wall that gives way (:mod:`hermite_fe.elastic_wall`), and not for a rigid one."""
 
+    damped: ClassVar[bool] = True
+    """Whether the scheme takes damping."""
+
     hysteretic: ClassVar[bool] = False
     """Whether the scheme steps Maxwell branches (:mod:`hermite_fe.maxwell`)."""
 
@@ -70,8 +73,9 @@ class Integrator(Part, ABC):
             self, time_step=time_step if self.time_step is None else self.time_step, growth=growth
         )
 
-    def with_defaults(self, impact: Impact) -> Integrator:
-        """A copy with all other unset choices made for ``impact``; itself where there are none."""
+    def with_defaults(self, impact: Impact, end_time: float | None) -> Integrator:
+        """A copy with all other unset choices made for ``impact`` and a run to ``end_time`` (s; ``None``: until it has
+        left); itself where there are none."""
         return self
 
     def refined(self, factor: float) -> Integrator:

@@ -13,6 +13,7 @@ dampers take in, stored or dissipated, is booked as loss in impacts.
 from __future__ import annotations
 
 import dataclasses
+import math
 from dataclasses import dataclass
 from typing import Annotated, ClassVar, NamedTuple
 
@@ -55,10 +56,10 @@ class GeneralizedAlphaPenalty(Integrator):
 
     spectral_radius: alpha.SpectralRadius = 0.8
     stiffness: Annotated[
-        float | None, Quantity("N/m²", "k_c, per length of beam", above=0.0, absent="chosen, 1e7 μ/t*²")
+        float | None, Quantity("N/m²", "k_c, per length of beam", above=0.0, absent="chosen, 1e5 μ/T²")
     ] = None
     damping: Annotated[
-        float | None, Quantity("N s/m²", "d_c, per length of beam", least=0.0, absent="chosen, 3e4 μ/t*")
+        float | None, Quantity("N s/m²", "d_c, per length of beam", least=0.0, absent="chosen, 3e3 μ/T")
     ] = None
     contact_rounds: Annotated[
         int, Quantity("", "limit on solutions a step for the set of active springs; more fail", least=1)
@@ -74,12 +75,13 @@ class GeneralizedAlphaPenalty(Integrator):
             damping=None if self.damping is None else self.damping * factor,
         )
 
-    def with_defaults(self, impact: Impact) -> GeneralizedAlphaPenalty:
-        mass, time = impact.mass_per_length, impact.time_scale
+    def with_defaults(self, impact: Impact, end_time: float | None) -> GeneralizedAlphaPenalty:
+        """The shorter the run the stiffer, as the front is the thinner; T* / 10 is as good as longer ones."""
+        mass, time = impact.mass_per_length, min(end_time or math.inf, 0.1 * impact.slow_time_scale)
         return dataclasses.replace(
             self,
-            stiffness=1e7 * mass / time**2 if self.stiffness is None else self.stiffness,
-            damping=3e4 * mass / time if self.damping is None else self.damping,
+            stiffness=1e5 * mass / time**2 if self.stiffness is None else self.stiffness,
+            damping=3e3 * mass / time if self.damping is None else self.damping,
         )
 
     def start(self, problem: Problem, state: State) -> PenaltyMemory:

@@ -60,6 +60,7 @@ class MasslessBoundary(Integrator):
     """Explicit steps of the points with mass, static equilibrium of those that may touch."""
 
     rebounds: ClassVar[bool] = False
+    damped: ClassVar[bool] = False
 
     def start(self, problem: Problem, state: State) -> MasslessMemory:
         refuse(problem, state)
@@ -92,7 +93,7 @@ def refuse(problem: Problem, state: State) -> None:
     """``InputError`` for what the scheme does not have."""
     kind = "integrator.kind: massless_boundary"
     if problem.matrices.causes.size:
-        raise InputError(f"{kind} has no damping: leave it out, far_field.viscosity must be 0")
+        raise InputError(f"{kind} takes no damping: far_field.viscosity and that of beam and wall must be 0")
     if np.any(state.bending.phi):
         raise InputError(f"{kind} leaves out the inertia of slopes: shear_stiffness is not modelled")
     if problem.rows.dofs.shape[1] > 1:

@@ -57,6 +57,7 @@ class MidpointMemory(NamedTuple):
 class Midpoint(Integrator):
     """The implicit midpoint rule, for a wall that gives way."""
 
+    rebounds: ClassVar[bool] = False
     elastic: ClassVar[bool] = True
     hysteretic: ClassVar[bool] = True
 

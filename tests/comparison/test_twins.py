@@ -1,11 +1,16 @@
 """A run in other units is the same run, in every number of its record and of what is read from it, on every path."""
 
 import pytest
-from twins import EXACT, RUNS, agree, differences, run
+from twins import EXACT, RUNS, agree, differences, in_units, run
 
+from bent_beam import Impact
 from bent_beam.measure.balance import balance_of
 from bent_beam.measure.instant import instant
+from bent_beam.measure.moments import moments
 from bent_beam.measure.whole_impact import hits, whole_impact
+from bent_beam.meshes import UniformMesh
+from comparison.bouncing import follow_hits
+from hermite_fe import HermiteFE
 
 OF_INSTANT = {"half_contact_length": "m", "element": "m", "reaction": "N", "impulse": "N s", "impulse_around": "N s"}
 OF_INSTANT |= {f"peak_{name}": unit for name, unit in zip(("force", "pressure", "penetration"), ("N", "N/m", "m"))}
@@ -21,9 +26,23 @@ def test_every_number_of_a_run_changes_with_its_unit(kind):
     found = differences(*runs, EXACT)
     assert {"gap", "impulse", "total_impulse", "kinetic_energy", "strain_energy"} <= found.keys()
     assert max(found.values()) < 1e-9, found
-    agree(*(balance_of(one) for one in runs))
+    checks = [balance_of(one) for one in runs]
+    agree(*checks)
+    assert (checks[0].momentum or 0.0) < 0.02 and checks[0].energy < 3e-3  # coarse as they are
+    agree(*(moments(one) for one in runs))
+    agree(*(moments(one, uniform=True) for one in runs))
     agree(*(instant(one, 0.5 * one.time[-1]) for one in runs), OF_INSTANT)
     if not kind.startswith("expanding"):  # no whole beam
         agree(*(whole_impact(one) for one in runs), {"supplied": "J"})
         for one, other in zip(*map(hits, runs), strict=True):
             agree(one, other, OF_HIT)
+
+
+def test_hits_that_follow_change_with_their_units():
+    impact, found = Impact.whole_beam(2.0, relative_damping=1e-2).replace(acceleration=0.3), []
+    for one, metre in ((impact, 1.0), (in_units(impact, EXACT), EXACT["m"])):
+        method = HermiteFE(mesh=UniformMesh(metre / 20.0)).for_whole_beam(one)
+        found.append(follow_hits(one, method, 2, first=method.simulate_to_separation(one)))
+    assert len(found[0]) == 2
+    for one, other in zip(*found, strict=True):
+        agree(one, other, OF_HIT)

@@ -18,7 +18,6 @@ kind = "signorini_position"
 growth = 0.01
 [exudyn.integrator]
 kind = "generalized_alpha"
-relative_step = 0.01
 """
 
 

@@ -103,7 +103,8 @@ const Beam = (() => {
       list.push(["sagitta_length", "The length of the sagitta must not exceed that of the beam."]);
     if (!list.length && inputs.wall_curvature && inputs.wall_curvature >= bow(inputs))
       list.push(["wall_curvature", "The wall must be less curved than the beam, or no point touches first."]);
-    if (!list.length && inputs.tension < -(PI ** 2) * section(inputs).stiffness / inputs.length ** 2)
+    const { stiffness, shear } = section(inputs), most = PI ** 2 * stiffness / inputs.length ** 2;
+    if (!list.length && inputs.tension < -most / (1 + (shear && most / shear)))
       list.push(["tension", "The axial force must not exceed the load at which a straight beam buckles."]);
     return list;
   }

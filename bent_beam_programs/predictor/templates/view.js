@@ -79,7 +79,7 @@
     };
     const words = {
       verdict: WORDS.regimes[contact.regime],
-      holds: holding(limits),
+      holds: holding(limits, b),
       theory: limits.until ? atEnd(theory) : "",
       groups: Object.entries(groups).map(([name, value]) => `${name} = ${value}`).join(" · "),
       model: WORDS.beams[b.shear ? "timoshenko" : "euler_bernoulli"],

@@ -13,12 +13,14 @@ const Words = (() => {
   }
 
   /** When the first instants hold. */
-  function holding({ from, until, forceUntil, by, after }) {
+  function holding({ from, until, forceUntil, by, after }, b) {
     if (!until) return `The theory covers no time: ${WORDS.limits[by]}.`;
     const start = after ? `from ${quantity("time", from, 3)} (before, ${WORDS.before[after]}) ` : "";
     const swings = `From ${quantity("time", Math.max(forceUntil, from), 3)} on `
       + "it has no reaction: waves from the ends swing the force.";
+    const left = [b.acceleration || b.tension ? "loads" : "", b.shear ? "shear" : ""].filter(Boolean).join(" and ");
     return `The theory holds to 2 % ${start}until ${quantity("time", until, 3)}: then ${WORDS.limits[by]}.`
+      + (left && ` Its moment leaves out ${left}.`)
       + (forceUntil < until ? ` ${swings}` : "");
   }
 
