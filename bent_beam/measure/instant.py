@@ -21,7 +21,6 @@ from bent_beam.measure.moments import (
     jump_of_rim,
     lift,
     mean_reaction,
-    moments,
     unresolved,
 )
 from bent_beam.measure.reduction import moment_left_out, peak_moment, wall_peaks
@@ -71,14 +70,7 @@ def instant(history: ImpactHistory, time: float, *, first_spread: bool = False) 
         rim is read without assuming how the zone behind it bears (:func:`bent_beam.measure.moments.first_front`).
     """
     k = int(np.argmin(np.abs(history.time - time)))  # saved times are those of steps
-    front: float | None
-    bent = 0.0
-    if not first_spread:
-        front = half_contact_length(history, k)
-    elif "contact_position" in history:  # points that move with the contact gather on their way
-        front = float(np.interp(time, history.time, moments(history).front)) * history.impact.length_scale
-    else:
-        front, bent = first_front(history, time)
+    front, bent = first_front(history, time) if first_spread else (half_contact_length(history, k), 0.0)
     peak = _so_far(peak_moment, history, time, "moment", jumps=True)
     wall = _so_far(wall_peaks, history, time, "force", "penetration", "pressure")
     begin, end = history.impact.wall_span

@@ -179,8 +179,8 @@ def local_front(time: Array, impulse: Array, moment: Array) -> Array:
 
 
 def first_front(history: ImpactHistory, time: float) -> tuple[float, float]:
-    """Half contact length, m, at ``time``, s, in the first spread of a zone, of contact points that stay where they
-    are, and by how much it differs from that of a front ~ √t, m; 0 without a push.
+    """Half contact length, m, at ``time``, s, in the first spread of a zone, and by how much it differs from that of a
+    front ~ √t, m; 0 without a push.
 
     The centroids of what was pushed over the tenth of the time before, and the tenth after, lie where the front was at
     the means of √t: between them it is a power of time. Where nothing follows it is carried on as √t.
@@ -192,7 +192,13 @@ def first_front(history: ImpactHistory, time: float) -> tuple[float, float]:
     windows = [(int(_last_tenth(instants)[k]), k)]
     if k + 1 < instants.size:
         windows.append((k, max(int(np.searchsorted(instants, (1.0 + AROUND) * instants[k], side="right")) - 1, k + 1)))
-    fronts = [_zone_end(history, *window) for window in windows]
+    if "contact_position" in history:  # points that move with the contact gather on their way
+        found, length = moments(history), history.impact.length_scale
+        pushes = [found.impulse[end] - found.impulse[begin] for begin, end in windows]
+        turns = [found.moment[end] - found.moment[begin] for begin, end in windows]
+        fronts = [length * max(turn / push, 0.0) if push > 0.0 else 0.0 for turn, push in zip(turns, pushes)]
+    else:
+        fronts = [_zone_end(history, *window) for window in windows]
     means = [float(np.sqrt(instants[list(window)]).mean()) for window in windows]
     steady = fronts[0] * time**0.5 / means[0]
     if len(windows) == 1 or min(fronts) <= 0.0:

@@ -80,6 +80,7 @@ def test_the_bow_by_its_sagitta_or_its_dogleg():
     [
         ({"drop_height": 0.5, "gravity": 9.0}, 3.0, 9.0),  # it falls on
         ({"velocity": 1.0, "gravity": 9.0, "gravity_angle": 60.0}, 1.0, 4.5),
+        ({"drop_height": 0.5, "gravity": 0.04}, 0.2, 0.04),
         ({"velocity": 1.0, "gravity": 9.0, "gravity_angle": 90.0}, 1.0, 0.0),
         ({"angular_speed": 0.2, "angular_arm": 5.0}, 1.0, 0.0),
     ],

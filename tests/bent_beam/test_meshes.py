@@ -55,6 +55,8 @@ def test_a_mesh_refined_by_two_has_elements_of_half_the_length_everywhere(mesh):
     places = np.linspace(0.2, 3.6, 40)  # not where elements are rescaled to fit
     number = [np.interp(places, one, np.arange(one.size)) for one in (nodes, finer)]
     assert np.gradient(number[1], places) == pytest.approx(2.0 * np.gradient(number[0], places), rel=0.05)
+    if isinstance(mesh, NodesMesh):
+        assert np.isin(nodes, finer).all() and finer.size == 2 * nodes.size - 1
 
 
 def test_impossible_meshes_are_refused():

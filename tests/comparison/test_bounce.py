@@ -98,6 +98,7 @@ def test_without_damping_a_seeded_band_takes_the_place_of_a_number(monkeypatch) 
     assert document["seed"] == 3 and document["restitution"] == {"value": None, "error": None, "band": stated}
     first, again, other = (COARSE.varied(impact, np.random.default_rng(seed)) for seed in (3, 3, 4))
     assert first == again != other
+    assert all(16 <= round(1.0 / one.mesh.element_length) <= 80 for one in (first, other))
     drawn = [bounce(impact, Scripted(), runs=8, seed=seed).runs.every for seed in (3, 3, 4)]
     first, again, other = ([run.reading["impulse"] for run in one] for one in drawn)
     assert first == again != other

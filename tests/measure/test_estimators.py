@@ -112,6 +112,17 @@ def test_noise_widens_the_error_bar_and_stays_inside_it():
     assert sum(abs(r0.value - exact.r0) <= r0.bar for r0 in found) >= 9
 
 
+def test_a_run_that_drifts_within_its_window_has_a_bar_for_it():
+    """A hump of the impulse in the middle of the last decade, which a fit over all of it smooths."""
+    smooth = moments(synthetic(0.3))
+    hump = 1.0 + 0.05 * np.exp(-(np.log(smooth.tau / 0.018) ** 2) / 0.2)
+    steady, drifting = (
+        leading_order(dataclasses.replace(smooth, impulse=i)).r0 for i in (smooth.impulse, smooth.impulse * hump)
+    )
+    assert abs(drifting.value - contact_parameters(0.3).r0) <= drifting.bar and drifting.parts["drift"] > 0.1
+    assert drifting.parts["drift"] > 20.0 * steady.parts["drift"]
+
+
 @pytest.mark.parametrize("first", [(4.0, 0.0, 0.0), (1.0, 1.0, 1.0), (-1.0, -1.0, 0.0), (0.0, 0.0, 1.0)])
 def test_first_order_is_recovered_with_and_without_uniform_reaction(first):
     exact = contact_parameters(0.5, *first)
@@ -131,6 +142,9 @@ def test_a_uniform_reaction_is_taken_out_where_something_presses_the_zone():
     """Whatever the cause: a₀ or tension on a bow. A load that lifts, or one that bends alone, leaves none."""
     pressed, lifted = (synthetic(0.5, (alpha, 0.0, 0.0), 0.1) for alpha in (1.0, -1.0))
     assert moments(pressed).pressure[-50:] == pytest.approx(0.1, rel=0.05)
+    exact, tau = contact_parameters(0.5, 1.0), moments(pressed).tau[-50:]
+    fronts = np.sqrt(tau) * (exact.lambda0 + 0.1 * exact.lambda1 * tau)
+    assert moments(pressed).front[-50:] == pytest.approx(fronts, rel=2e-3)
     for acceleration, tension, chi in ((-0.1, 0.0, 0.0), (0.0, 0.0, 0.1), (-0.05, 0.1, 0.0)):
         impact = Impact.dimensionless(0.5).replace(acceleration=acceleration, axial_force=tension, curvature_rate=chi)
         assert np.all(moments(with_impact(lifted, impact)).pressure == 0.0)

@@ -134,7 +134,12 @@ def test_in_other_units_an_impact_is_the_same_and_what_springs_of_the_wall_hold_
     time = run.dataset["time"]
     held, lost = 0.05 * time, 0.1 * (time > again)
     swung = run.dataset["gap"] * (1.1 + np.cos(4.0 * np.pi * time))  # it comes near the wall again
-    run = ImpactHistory.of(run.dataset.assign(contact_energy=held, kinetic_energy=1.0 - held - lost, gap=swung))
+    swings, given = 0.2 + 0.0 * time, 0.03 * (time > 3.9)
+    moves = 1.0 - held - lost - swings + given
+    run = ImpactHistory.of(
+        run.dataset.assign(contact_energy=held, kinetic_energy=moves, strain_energy=swings, gap=swung)
+    )
+    assert whole_impact(run, shortest=shortest).energy_gain == pytest.approx(0.03)
     fields = {name: unit * run.array(name) for name, unit in UNITS.items()}
     other = history_of(18.0 * run.time, 3.0 * run.positions(0), impact=HEAVY, **fields)
     one, same = (dataclasses.asdict(whole_impact(history, shortest=shortest)) for history in (run, other))

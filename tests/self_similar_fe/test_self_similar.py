@@ -136,3 +136,11 @@ def test_a_front_that_runs_out_of_its_mesh_is_an_error_with_what_was_reached():
     with pytest.raises(SimulationError, match="finely meshed zone") as caught:
         simulate_expanding(Impact.dimensionless(0.5, epsilon_chi=40.0), QUICK, end_time=0.1)
     assert caught.value.history is not None
+
+
+@pytest.mark.parametrize("front", [0.3, 2.0])
+def test_elements_are_fine_at_the_front_and_nowhere_longer_than_a_share_of_the_zone(front):
+    nodes, absorbs = ExpandingMesh(front_resolution=0.02, interior_elements=30).lay(front)
+    sizes, k = np.diff(nodes), int(np.searchsorted(nodes, front))
+    assert nodes[0] == 0.0 and nodes[k] == pytest.approx(front) and absorbs == pytest.approx(front + 8.0)
+    assert sizes[:k].max() <= 1.001 * front / 30 and sizes[k] == pytest.approx(sizes.min(), rel=0.1)
