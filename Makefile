@@ -29,7 +29,7 @@ PIP := $(BIN)/python -m pip --quiet --disable-pip-version-check
 $(STAMP): pyproject.toml requirements.lock
 	@$(BIN)/python -c $(ABLE) 2>/dev/null || { $(PYTHON) -c $(RECENT) && $(PYTHON) -m venv --clear $(VENV); } || \
 		{ echo "needs Python 3.11 or newer, $(PYTHON) is $$($(PYTHON) --version 2>&1): make PYTHON=python3.11 ..." >&2; exit 2; }
-	$(PIP) install --require-hashes --requirement requirements.lock
+	$(PIP) install --no-compile --require-hashes --requirement requirements.lock
 	rm -rf build *.egg-info  # left by another build, they would hide new commands
 	$(PIP) install --no-deps --no-build-isolation --editable .
 	@touch $@

@@ -1,4 +1,6 @@
-"""Compile the integrators by a small impact each: python -m tests.compile_integrators"""
+"""Compile integrators by a small impact each: python -m tests.compile_integrators KIND ... ("hysteretic": one more)."""
+
+import sys
 
 import hermite_fe
 from bent_beam import Impact
@@ -6,6 +8,12 @@ from bent_beam.meshes import UniformMesh
 from hermite_fe.integrators import INTEGRATORS
 
 if __name__ == "__main__":
-    impact, mesh = Impact.dimensionless(0.5, length=4.0), UniformMesh(0.1)
-    for kind in ("signorini_position", "generalized_alpha_penalty", "nonsmooth_generalized_alpha"):
-        hermite_fe.simulate(impact, end_time=1e-2, mesh=mesh, integrator=INTEGRATORS[kind](1e-3))
+    for kind in sys.argv[1:]:
+        impact = Impact.dimensionless(0.5, length=4.0)
+        if kind == "midpoint":
+            impact = impact.replace(wall_stiffness=1e4)
+        if kind == "hysteretic":
+            impact = impact.replace(hysteretic_loss=0.1, loss_frequency=5.0)
+        scheme = INTEGRATORS.get(kind, INTEGRATORS["signorini_position"])(1e-3)
+        contact = hermite_fe.contacts.AlternateContact() if kind == "massless_boundary" else None
+        hermite_fe.simulate(impact, end_time=1e-2, mesh=UniformMesh(0.1), integrator=scheme, contact=contact)
