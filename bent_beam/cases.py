@@ -170,7 +170,10 @@ def _check_buckling(impact: Impact) -> None:
             f"buckles (got {impact.axial_force!r})"
         )
     if impact.supported and impact.axial_force < 0.0:
-        lowest_frequency(impact)  # with shear it buckles sooner
+        try:
+            lowest_frequency(impact)  # with shear it buckles sooner
+        except InputError as error:
+            raise InputError(f"beam.{error}") from None
 
 
 def lay_over(tables: dict[str, Any], assignments: Sequence[str]) -> None:
@@ -193,7 +196,7 @@ def lay_values(tables: dict[str, Any], values: Mapping[str, Any], option: str) -
     """Put each value at its ``table.key`` of ``tables``, in place of what says the same
     (:data:`bent_beam.tables.WAYS`). Raises :class:`InputError`, naming ``option``, where that is no place, and for two
     keys that say the same."""
-    for key, value in values.items():
+    for key, value in sorted(values.items(), key=lambda item: item[0] == "impact.acceleration"):  # what it needs first
         _lay(tables, key, value, option)
     for key in values:  # a later one that says the same has removed it
         if not _holds(tables, key):

@@ -63,6 +63,7 @@ def snapped(nodes: Array, wall_span: tuple[float, float]) -> Array:
     """
     moved, near, edges = nodes.copy(), NEAR * nodes[-1], np.unique(np.abs(wall_span))
     edges = edges[(edges > near) & (edges < nodes[-1] - near)]
+    edges = edges[np.diff(edges, prepend=-np.inf) > near]  # of both sides, but for round-off
     for edge in edges:
         moved[1 + np.argmin(np.abs(nodes[1:-1] - edge))] = edge
     if not np.all(np.isin(edges, moved)) or np.any(np.diff(moved) < SLIVER * np.diff(nodes)):

@@ -20,6 +20,7 @@ companion shows it, a known size: at a time in :mod:`comparison.predicting`, of 
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from typing import Any
@@ -134,7 +135,10 @@ class Question:
         share = until / impact.slow_time_scale
         if share < EARLIEST or not hasattr(self.method, "for_whole_beam"):
             return None
-        finer = refined(self.method, max(1.0, RESOLVES / share**0.5))
+        whole: Any = self.method
+        if getattr(whole, "domain", None) is not None:  # of the run, not of this companion
+            whole = dataclasses.replace(whole, domain=None)
+        finer = refined(whole, max(1.0, RESOLVES / share**0.5))
         return None if finer is None else for_whole_beam(finer, impact)
 
     def _drawn(self, runs: int, seed: int) -> list[Method]:

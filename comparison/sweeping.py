@@ -112,7 +112,7 @@ def cases_of(
     for key, values in vary.items():
         if key.startswith("run."):
             raise InputError(f"vary: {key} has no effect on a whole impact (got {shortened(list(values))})")
-        if len({str(value) for value in values}) < len(values):
+        if len({float(value) if numeric([value]) else str(value) for value in values}) < len(values):
             raise InputError(f"vary: {key} has a value twice (got {shortened(list(values))})")
     combinations = [dict(zip(vary, values)) for values in product(*vary.values())]
     cases = [_case(tables, varied) for varied in combinations]

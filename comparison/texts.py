@@ -74,9 +74,7 @@ def validity_text(document: dict[str, Any]) -> str:
         return f"The theory covers no time: {why}."
     before = BEFORE.get(document["valid_after"], "")
     start = f"from {milliseconds(document['valid_from'])} (before, {before}) " if before else ""
-    holds = (
-        f"The theory holds to 2 % {start}until {milliseconds(document['valid_until'])}: then {why}."
-    )
+    holds = f"The theory holds to 2 % {start}until {milliseconds(document['valid_until'])}: then {why}."
     if document["force_until"] >= document["valid_until"]:
         return holds + _leading(document)
     begin = milliseconds(max(document["force_until"], document["valid_from"]))

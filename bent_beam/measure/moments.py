@@ -183,7 +183,8 @@ def first_front(history: ImpactHistory, time: float) -> tuple[float, float]:
     front ~ √t, m; 0 without a push.
 
     The centroids of what was pushed over the tenth of the time before, and the tenth after, lie where the front was at
-    the means of √t: between them it is a power of time. Where nothing follows it is carried on as √t.
+    the means of √t: between them it is a power of time, or straight in √t where the zone ends or begins. At the end
+    of a record it is carried on as √t.
     """
     instants = history.time
     k = int(np.argmin(np.abs(instants - time)))
@@ -201,8 +202,10 @@ def first_front(history: ImpactHistory, time: float) -> tuple[float, float]:
         fronts = [_zone_end(history, *window) for window in windows]
     means = [float(np.sqrt(instants[list(window)]).mean()) for window in windows]
     steady = fronts[0] * time**0.5 / means[0]
-    if len(windows) == 1 or min(fronts) <= 0.0:
+    if len(windows) == 1:
         return steady, 0.0
+    if min(fronts) <= 0.0:  # no power of time leads to, or from, nothing
+        return float(np.interp(time**0.5, means, fronts)), abs(fronts[1] - fronts[0])
     power = np.log(fronts[1] / fronts[0]) / np.log(means[1] / means[0])
     front = fronts[0] * float((time**0.5 / means[0]) ** power)
     return front, abs(front - steady)

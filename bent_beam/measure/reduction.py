@@ -21,7 +21,8 @@ MAY_BE_HELD = 0.01  # of the run: while this lasts, a start may be held
 
 
 class PeakMoment(NamedTuple):
-    """Largest bending moment, N m (its size), its place, m, and its time, s (the middle of its saved interval).
+    """Largest bending moment, N m (its size), its place, m, and its time, s: of all steps the middle of its
+    saved interval, else the saved instant.
 
     midspan : the largest at x = 0, N m."""
 

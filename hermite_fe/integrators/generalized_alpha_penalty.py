@@ -6,7 +6,7 @@ that is one spring and damper per node, active during penetration only, when the
 ``ObjectContactCoordinate`` with linear damping). A node that touches within a step may be in the wall without its
 damper, and off it with it: it is then closed, as long as it is pushed. Constraints must touch one dof each: contact at
 nodes. Measured at κ/ν = 0.5 and 0.1, τ = 0.1: with k = 10⁵, d = 10³ λ₀ is 1.6 and 1.1 % off, with the 10⁷ and 3·10⁴
-chosen here 0.12 and 0.03 %, with 10⁸ and 10⁵ 0.05 and 0.003 %. There is no impact law and no hold; what springs and
+chosen there 0.12 and 0.03 %, with 10⁸ and 10⁵ 0.05 and 0.003 %. There is no impact law and no hold; what springs and
 dampers take in, stored or dissipated, is booked as loss in impacts.
 """
 
@@ -56,10 +56,12 @@ class GeneralizedAlphaPenalty(Integrator):
 
     spectral_radius: alpha.SpectralRadius = 0.8
     stiffness: Annotated[
-        float | None, Quantity("N/m²", "k_c, per length of beam", above=0.0, absent="chosen, 1e5 μ/T²")
+        float | None,
+        Quantity("N/m²", "k_c, per length of beam", above=0.0, absent="chosen, 1e5 μ/T² of a run to T"),
     ] = None
     damping: Annotated[
-        float | None, Quantity("N s/m²", "d_c, per length of beam", least=0.0, absent="chosen, 3e3 μ/T")
+        float | None,
+        Quantity("N s/m²", "d_c, per length of beam", least=0.0, absent="chosen, 3e3 μ/T of a run to T"),
     ] = None
     contact_rounds: Annotated[
         int, Quantity("", "limit on solutions a step for the set of active springs; more fail", least=1)

@@ -151,6 +151,14 @@ def test_a_changed_solver_of_this_project_runs_again_and_no_foreign_one(monkeypa
     assert changed == {"hermite", "hermite-strict", "massless-boundary", "exudyn"}
 
 
+def test_foreign_adapters_import_nothing_of_this_project():
+    for one in shipped_adapters().values():
+        if not one.host:
+            source = one.file.read_text()
+            known = [n for n in ("bent_beam", "hermite_fe", "theory import", "open_benchmark") if n in source]
+            assert not known, (one.name, known)
+
+
 NODES = """
 import sys, tomllib, numpy as np
 problem = tomllib.load(open(sys.argv[1], "rb"))
