@@ -74,18 +74,14 @@ def validity_text(document: dict[str, Any]) -> str:
         return f"The theory covers no time: {why}."
     before = BEFORE.get(document["valid_after"], "")
     start = f"from {milliseconds(document['valid_from'])} (before, {before}) " if before else ""
-    holds = f"The theory holds to 2 % {start}until {milliseconds(document['valid_until'])}: then {why}."
-    if document["force_until"] >= document["valid_until"]:
-        return holds + _leading(document)
-    begin = milliseconds(max(document["force_until"], document["valid_from"]))
-    return f"{holds}\nFrom {begin} on it has no reaction: waves from the ends swing the force.{_leading(document)}"
-
-
-def _leading(document: dict[str, Any]) -> str:
-    """What the moment of the theory, of leading order, is not of."""
+    lines = [f"The theory holds to 2 % {start}until {milliseconds(document['valid_until'])}: then {why}."]
+    if document["force_until"] < document["valid_until"]:
+        begin = milliseconds(max(document["force_until"], document["valid_from"]))
+        lines.append(f"From {begin} on it has no reaction: waves from the ends swing the force.")
     loads = any(document[f"epsilon_{load}"] for load in ("alpha", "psi", "chi", "axial"))
-    left_out = [word for word, acts in (("loads", loads), ("shear", document["model"] == "timoshenko")) if acts]
-    return f"\nIts moment leaves out {' and '.join(left_out)}." if left_out else ""
+    if left_out := [w for w, acts in (("loads", loads), ("shear", document["model"] == "timoshenko")) if acts]:
+        lines.append(f"Its moment leaves out {' and '.join(left_out)}.")  # it is of leading order
+    return "\n".join(lines)
 
 
 def _instants(document: dict[str, Any]) -> str:

@@ -5,7 +5,7 @@ import pytest
 
 from bent_beam import Impact, SimulationError
 from bent_beam.measure.estimators import SIDE, leading_order
-from bent_beam.measure.moments import moments
+from bent_beam.measure.moments import first_front, moments
 from self_similar_fe import ExpandingMesh, SelfSimilarFE
 from self_similar_fe.run import simulate_expanding
 from self_similar_fe.similarity import similarity
@@ -144,3 +144,9 @@ def test_elements_are_fine_at_the_front_and_nowhere_longer_than_a_share_of_the_z
     sizes, k = np.diff(nodes), int(np.searchsorted(nodes, front))
     assert nodes[0] == 0.0 and nodes[k] == pytest.approx(front) and absorbs == pytest.approx(front + 8.0)
     assert sizes[:k].max() <= 1.001 * front / 30 and sizes[k] == pytest.approx(sizes.min(), rel=0.1)
+
+
+def test_the_front_that_is_read_at_an_instant_is_the_theory_s(half):
+    """Bare, a front ~ √t: from two centroids of what points gathered that move with it."""
+    front, bent = first_front(half, 0.08)
+    assert front == pytest.approx(EXACT[0.5][0] * 0.08**0.5, rel=2e-3) and bent < 2e-3 * front
