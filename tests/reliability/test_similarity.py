@@ -25,18 +25,15 @@ if FUZZ:
 # Thousands of explicit steps, shear and large rotations add a digit. The gap to a circle is a difference of lengths of
 # the order of its radius, thousands of times what the beam deflects.
 NEAR = {
-    "expanding, bare": 1e-8,
+    "expanding, bare": 1e-6,
     "Exudyn, explicit": 1e-8,
     "Exudyn, sheared": 1e-4,
     "Exudyn, between two walls": 1e-7,
     "Exudyn, a circle for a wall": 1e-5,
 }
-NOISE = (
-    "loss_algorithmic",
-    "loss_impact",
-    "held_impulse",
-    "largest_moment_place",
-)  # some differences of nearly nothing
+# differences of nearly nothing, a place of two that are equal, the largest at samples whose places turn on the rounding
+# of a zero: in units that are even powers of two all are held to 1e-9 (tests/comparison/test_twins.py)
+NOISE = ("loss_algorithmic", "loss_impact", "held_impulse", "largest_moment_place", "peak_penetration", "peak_pressure")
 simulated = cache(run)
 
 
