@@ -19,7 +19,7 @@ from hermite_fe.stepping import Problem, State
 __all__ = ["Integrator"]
 
 MAXIMUM_STEPS = 20_000_000
-MOST_WORK = 1e11  # steps x nodes: about an hour
+MOST_WORK = 1e11  # steps x nodes: one to four hours
 
 
 @dataclass(frozen=True)
