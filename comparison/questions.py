@@ -20,9 +20,8 @@ companion shows it, a known size: at a time in :mod:`comparison.predicting`, of 
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -137,7 +136,7 @@ class Question:
             return None
         whole: Any = self.method
         if getattr(whole, "domain", None) is not None:  # of the run, not of this companion
-            whole = dataclasses.replace(whole, domain=None)
+            whole = replace(whole, domain=None)
         finer = refined(whole, max(1.0, RESOLVES / share**0.5))
         return None if finer is None else for_whole_beam(finer, impact)
 

@@ -160,8 +160,10 @@ def simulate_case(
 
 
 def _run(first_spread: bool, until: float, history: ImpactHistory) -> dict[str, Any]:
-    found, reading = moments(history.until(until)), instants_reading((until,), first_spread, history)
-    return reading | {"moments": found, "unresolved": unresolved_at_end(history.until(until), found)}
+    asked = history.until(until)
+    found = moments(asked)
+    of_front = {"moments": found, "unresolved": unresolved_at_end(asked, found)}
+    return instants_reading((until,), first_spread, history) | of_front
 
 
 def _whole_run(history: ImpactHistory) -> dict[str, Any]:

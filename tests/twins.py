@@ -1,6 +1,7 @@
 """One problem in two systems of units: every number must change with its unit."""
 
 from collections.abc import Mapping
+from dataclasses import is_dataclass
 from functools import partial
 from typing import Any
 
@@ -117,14 +118,19 @@ def run(kind: str, base: Mapping[str, float] | None = None) -> ImpactHistory:
 def agree(
     one: Any, other: Any, units: Mapping[str, str] = {}, base: Mapping[str, float] = EXACT, within: float = 1e-9
 ) -> None:
-    """``other``, attribute by attribute, is ``one`` times its unit; what has none in ``units`` is the same number."""
+    """``other``, attribute by attribute and part by part, is ``one`` times its unit; what has none in ``units`` is the
+    same number."""
     for name, value in vars(one).items():
         theirs, unit = getattr(other, name), factor(units.get(name, "1"), base)
-        if isinstance(value, (float, tuple, np.ndarray)) and name != "times":
+        parts = value if isinstance(value, tuple) else (value,)
+        if parts and is_dataclass(parts[0]):
+            for part, its in zip(parts, theirs if isinstance(value, tuple) else (theirs,), strict=True):
+                agree(part, its, units, base, within)
+        elif isinstance(value, (float, tuple, np.ndarray)):
             wanted = np.asarray(value, float) * unit
             near = within * max(np.abs(wanted).max(initial=0.0), unit)
             assert np.asarray(theirs) == pytest.approx(wanted, rel=0.0, abs=near), name
-        elif not hasattr(value, "__dict__") and name != "times":
+        else:
             assert theirs == value, name
 
 

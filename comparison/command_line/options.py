@@ -70,8 +70,7 @@ Methods = Annotated[
     typer.Option(metavar="FILE.toml", help="File of methods (see cases/methods/), in place of --path. Repeatable."),
 ]
 ErrorBars = Annotated[
-    str,
-    typer.Option(help="quick (one companion run, half resolution), thorough (also twice), drift (none)."),
+    str, typer.Option(help="quick (one companion run, half resolution), thorough (also twice), drift (none).")
 ]
 Refine = Annotated[
     str | None, typer.Option(metavar="1,2,4", help="Factors by which elements and steps are refined, a row each.")
