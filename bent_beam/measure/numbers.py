@@ -161,14 +161,16 @@ class Band:
 
 
 def _with_bar(value: float, error: float) -> str:
-    """``value`` ± ``error``, both to the first digit of the error."""
+    """``value`` ± ``error``, both to the first digit of the error, to the second where the first is 1: to round 0.0149
+    to 0.01 would take a third of it."""
     if error <= 0.0:
         return f"{value:.6g} ± {error:.1g}"
-    error = float(f"{error:.1g}")
+    significant = 2 if f"{error:.1e}".startswith("1") else 1
+    error = float(f"{error:.{significant}g}")
     power = math.floor(math.log10(max(abs(value), error)))
     if not SMALL <= 10.0**power < LARGE:
         return f"({_with_bar(value / 10.0**power, error / 10.0**power)})e{power:+03d}"
-    digits = -math.floor(math.log10(error))
+    digits = significant - 1 - math.floor(math.log10(error))
     places = min(max(0, digits), 12)
-    size = f"{error:.{places}f}" if digits <= places else f"{error:.1g}"
+    size = f"{error:.{places}f}" if digits <= places else f"{error:.{significant}g}"
     return f"{round(value, digits) + 0.0:.{places}f} ± {size}"  # not −0

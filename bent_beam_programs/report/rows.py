@@ -76,12 +76,8 @@ class Cell:
 
     @property
     def value_text(self) -> str:
-        """Value ± error bar, with as many digits as the error bar leaves."""
-        value, bar = self.number.value, self.number.bar
-        if not bar:
-            return true_minus(f"{value:.6g}")
-        digits = max(0, min(8, 1 - math.floor(math.log10(bar))))
-        return true_minus(f"{value:.{digits}f} ±\u00a0{bar:.{digits}f}")
+        """Value ± error bar."""
+        return true_minus(str(self.number).replace("± ", "±\u00a0"))
 
     @property
     def error_text(self) -> str:

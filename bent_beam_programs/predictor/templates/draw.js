@@ -12,11 +12,12 @@ const Draw = (() => {
     return String(Number(value.toPrecision(digits))).replace("-", "−");
   }
 
-  /** Both to the first digit of the error, as Python writes them (bent_beam/measure/numbers.py). */
+  /** Both to the first digit of the error, to the second after a 1, as Python (bent_beam/measure/numbers.py). */
   function bar(value, error) {
     if (!(error > 0)) return `${text(value, 6)} ± ${text(error, 1)}`;
-    const first = Number(error.toExponential(0)), size = Math.max(Math.abs(value), first);
-    const power = Math.floor(Math.log10(size)), digits = -Math.floor(Math.log10(first));
+    const more = error.toExponential(1).startsWith("1") ? 1 : 0, first = Number(error.toExponential(more));
+    const power = Math.floor(Math.log10(Math.max(Math.abs(value), first)));
+    const digits = more - Math.floor(Math.log10(first));
     if (power >= 6 || power < -4)
       return `(${bar(value / 10 ** power, first / 10 ** power)})·${text(10 ** power, 1).slice(2)}`;
     const unit = 10 ** Math.abs(digits), rounded = digits < 0 ? Math.round(value / unit) * unit : value;
