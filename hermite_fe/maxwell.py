@@ -39,9 +39,9 @@ def branches_at_rest(matrix: Array, fitted: hysteresis.Branches) -> Branches:
 
 
 @compiled_within
-def stiffen(branches: Branches | None, h: float, theta: float, solver: Solver) -> None:
+def stiffen(branches: Branches, h: float, theta: float, solver: Solver) -> None:
     """Add θh²KΣ ϑg/(1 + ϑh/τ) to a step matrix that is just made, and keep the ϑ and the weights 1/(1 + ϑh/τ)."""
-    if branches is None:
+    if branches.shares.size == 0:
         return
     share, n = 0.0, branches.matrix.shape[1]
     for j in range(branches.shares.size):
@@ -70,9 +70,9 @@ def form(first: float, second: float) -> float:
 
 
 @compiled_within
-def add_branch_forces(branches: Branches | None, bending: Bending, v: Array, h: float, b: Array) -> None:
+def add_branch_forces(branches: Branches, bending: Bending, v: Array, h: float, b: Array) -> None:
     """b −= hKΣ g(z + ϑhBv)/(1 + ϑh/τ): what the branches do at v, of which Δv is still to be added."""
-    if branches is None:
+    if branches.shares.size == 0:
         return
     z = branches.z
     for e in range(bending.lengths.size):
@@ -92,9 +92,9 @@ def add_branch_forces(branches: Branches | None, bending: Bending, v: Array, h: 
 
 
 @compiled_within
-def step_branches(branches: Branches | None, bending: Bending, v_theta: Array, h: float, stretch: Array) -> float:
+def step_branches(branches: Branches, bending: Bending, v_theta: Array, h: float, stretch: Array) -> float:
     """z⁺ in place of z, and Σ g z̄ into ``stretch``; returns the loss in the dashpots, J."""
-    if branches is None:
+    if branches.shares.size == 0:
         return 0.0
     z, loss = branches.z, 0.0
     for e in range(bending.lengths.size):

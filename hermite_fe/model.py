@@ -49,7 +49,7 @@ from hermite_fe.elastic_wall import NO_SPRINGS, Springs
 from hermite_fe.far_fields import Dampings, FarField
 from hermite_fe.masses import ConsistentMass, Mass
 from hermite_fe.maxwell import branches_at_rest
-from hermite_fe.system import Bending, ContactRows, System
+from hermite_fe.system import NO_BRANCHES, Bending, ContactRows, System
 
 __all__ = ["MODELLED", "BeamModel", "beam_model"]
 CONSISTENT = ConsistentMass()
@@ -157,7 +157,7 @@ def beam_model(
         springs=springs_of(impact, beam, facing, full=full),
         second=NO_SPRINGS if impact.opposite_wall is None else springs_of(impact, beam, from_behind, -1.0, full=full),
         bending=bending,
-        branches=None if branches is None else branches_at_rest(bending_stiffness, branches),
+        branches=NO_BRANCHES if branches is None else branches_at_rest(bending_stiffness, branches),
     )
     behind = (np.arange(len(rows)) % 2 == 1) & (impact.opposite_wall is not None)
     return BeamModel(beam, system, displacement, velocity, natural, facing, behind, full, impact.axial_force)

@@ -75,7 +75,7 @@ class Stepper:
                 "integrator.kind: midpoint is for a wall with a stiffness, the others for a rigid one; leave it out "
                 f"(got {type(integrator).__name__})"
             )
-        if system.branches is not None and not integrator.hysteretic:
+        if system.branches.shares.size and not integrator.hysteretic:
             raise InputError(
                 "integrator.kind: hysteretic_loss needs moreau_jean or signorini_position, before a wall with a "
                 f"stiffness midpoint; leave it out (got {type(integrator).__name__})"
@@ -133,7 +133,7 @@ class Stepper:
             "kinetic_energy": 0.5 * float(state.v @ product(matrices.M, state.v)),
             "strain_energy": 0.5 * float(state.q @ stiff_product(matrices.K, state.q, matrices.K_sums)),
         }
-        if state.branches is not None:
+        if state.branches.shares.size:
             found["branch_energy"] = branch_energy(state.branches, state.bending)
             found["strain_energy"] += found["branch_energy"]
         if self.integrator.elastic:

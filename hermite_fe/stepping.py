@@ -68,7 +68,7 @@ class State(NamedTuple):
     closed : (rows,). impulse, held_impulse : (rows,), N s since the start, and its pulling part.
     energy : (7,), J, see :data:`WORK`. worst : (2,), see :data:`hermite_fe.constraints.PRODUCT`.
     peaks : (4,), see :data:`hermite_fe.elastic_wall.FORCE`.
-    branches : of a hysteretic beam, else none; stretch : (2 elements,), the weighted sum of their stretches, mean over
+    branches : of a hysteretic beam; stretch : (2 elements,), the weighted sum of their stretches, mean over
         the last step.
     largest : (3,), :data:`LARGEST` of all steps since it was last set to 0: largest bending moment |M|, N m, its node,
         and the largest in the middle, N m.
@@ -85,7 +85,7 @@ class State(NamedTuple):
     peaks: Array
     largest: Array
     bending: Bending
-    branches: Branches | None
+    branches: Branches
     stretch: Array
 
 
@@ -110,7 +110,7 @@ def state_of(system: System, q: Array, v: Array) -> State:
         q=np.array(q, float), v=np.array(v, float), acceleration=np.zeros(n), closed=np.zeros(m, np.bool_),
         impulse=np.zeros(m), held_impulse=np.zeros(m), energy=np.zeros(7), worst=np.zeros(2), peaks=np.zeros(4),
         largest=np.zeros(3), bending=system.bending, stretch=np.zeros(2 * system.bending.lengths.size),
-        branches=None if system.branches is None else Branches(*(part.copy() for part in system.branches)),
+        branches=Branches(*(part.copy() for part in system.branches)),
     )  # fmt: skip
 
 

@@ -18,7 +18,7 @@ from bent_beam.errors import InputError
 from hermite_fe.compiled import Array, Places
 from hermite_fe.elastic_wall import NO_SPRINGS, Springs
 
-__all__ = ["DAMPINGS", "Bending", "Branches", "ContactRows", "System"]
+__all__ = ["DAMPINGS", "NO_BRANCHES", "Bending", "Branches", "ContactRows", "System"]
 
 DAMPINGS = ("viscous", "material", "absorbed")
 """Causes of damping whose losses are recorded apart: viscosity at grid scale, the material, an absorbing layer."""
@@ -109,15 +109,19 @@ class Branches(NamedTuple):
     """Maxwell branches beside the bending stiffness (:mod:`hermite_fe.maxwell`).
 
     matrix : the bending part of K, (4, dofs). shares, rates : (branches,), g and 1/τ, 1/s; means, weights :
-    (branches,), ϑ and 1/(1 + ϑh/τ) of the step matrix. z : (2 elements, branches), the stretches.
+    (branches,), ϑ and 1/(1 + ϑh/τ) of the step matrix. z : (2 elements, branches), the stretches. A beam without
+    hysteresis has none: its runs and those with it are compiled once.
     """
 
     matrix: Array
-    shares: Array
-    rates: Array
-    means: Array
-    weights: Array
-    z: Array
+    shares: Array = _left_out()
+    rates: Array = _left_out()
+    means: Array = _left_out()
+    weights: Array = _left_out()
+    z: Array = np.zeros((0, 0))
+
+
+NO_BRANCHES = Branches(np.zeros((4, 0)))
 
 
 @dataclass(frozen=True)
@@ -145,7 +149,7 @@ class System:
     springs: Springs = NO_SPRINGS
     second: Springs = NO_SPRINGS
     bending: Bending = field(default_factory=Bending)
-    branches: Branches | None = None
+    branches: Branches = NO_BRANCHES
 
     def __post_init__(self) -> None:
         set_ = object.__setattr__

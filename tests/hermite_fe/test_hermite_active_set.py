@@ -1,5 +1,7 @@
 """The compiled contact problem and factorisation against truth: every active set tried densely, and LAPACK."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 from hermite_parts import dense
@@ -7,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.linalg import cho_solve_banded, cholesky_banded
 
 from bent_beam.meshes import ScaleFreeMesh
-from hermite_fe.active_set import CYCLING, SOLVED, find_wrong, solve_constrained
+from hermite_fe.active_set import CYCLING, MOST_ROUNDS, SOLVED, find_wrong, solve_constrained
 from hermite_fe.beam import HermiteBeam
 from hermite_fe.constraints import Constraints, ContactLaw, constraints_of
 from hermite_fe.stepping import Problem, prepare, problem_of
@@ -75,9 +77,12 @@ def touching(system: System, b: Array) -> Array:
     return np.asarray(np.einsum("jk,jk->j", system.contacts.factors, x[system.contacts.dofs]))
 
 
-def solve_one_by_one(*arguments):
-    """The fall-back from the start."""
-    return solve_constrained(*arguments, 0)
+def solve(*arguments, most_rounds=MOST_ROUNDS):
+    """Compiled for one kind of call."""
+    return solve_constrained(*arguments, most_rounds)
+
+
+solve_one_by_one = partial(solve, most_rounds=0)  # the fall-back from the start
 
 
 def check(seed: int) -> None:
@@ -98,10 +103,10 @@ def check(seed: int) -> None:
     conditions.target[:], conditions.candidate[:], conditions.least[:] = target, candidate, -1.0 * held
     x = np.zeros(n)
     # from one guess to the next the factors are kept; one by one where exchanging many rows at once runs in a circle
-    for solve in [solve_constrained] * 3 + [solve_one_by_one]:
+    for solved in [solve] * 3 + [solve_one_by_one]:
         conditions.closed[:] = random.random(m) < 0.5
-        status = solve(problem.solver, problem.rows, conditions, b, x)
-        if degenerate < 0.3 and solve is solve_one_by_one:  # judged more leniently, but no row is left out in silence
+        status = solved(problem.solver, problem.rows, conditions, b, x)
+        if degenerate < 0.3 and solved is solve_one_by_one:  # judged more leniently, but no row is left out in silence
             wrong, *_ = find_wrong(problem.solver, problem.rows, conditions, b, x, 1e-8)
             assert status == CYCLING or (status == SOLVED and wrong == 0), seed
             continue
@@ -128,7 +133,7 @@ def test_the_factors_solve_like_lapack_s() -> None:
     for seed in range(8):
         known = np.random.default_rng(seed).normal(size=system.dofs)
         b, x = dense(bands) @ known, np.zeros(system.dofs)
-        assert solve_constrained(problem.solver, problem.rows, conditions, b, x) == SOLVED
+        assert solve(problem.solver, problem.rows, conditions, b, x) == SOLVED
         lapack = cho_solve_banded((cholesky_banded(bands, lower=True), True), b)
         errors.append([np.abs(solution - known).max() for solution in (x, lapack)])
     ours, theirs = np.max(errors, axis=0)
@@ -160,7 +165,7 @@ def test_a_front_that_runs_and_lifts_leaves_no_sign_wrong(width: int) -> None:
             if random.random() < 0.1:
                 b[2 * random.integers(0, 60)] -= 30.0
             conditions.target[:], conditions.candidate[:] = 1e-3 * random.normal(size=m), True
-            assert solve_constrained(problem.solver, problem.rows, conditions, b, x) == SOLVED
+            assert solve(problem.solver, problem.rows, conditions, b, x) == SOLVED
             residual = (S @ x - b - G.T @ conditions.p)[free]
             slack = G @ x - conditions.target
             scale = np.abs(x).max() + np.abs(conditions.p).max()
