@@ -1,7 +1,7 @@
 """The record of a run in SI units, the same for every path; as an ``xarray.Dataset`` for those who ask for one.
 
 Dimensions: ``time`` (the saved instants), ``x`` (nodes) and ``contact`` (contact points). ``bent_beam/files.py`` lists
-the variables with their dimensions and units; docs/guide/history.md says what each is.
+those that paths share, with dimensions and units; docs/guide/history.md says what each is.
 Attributes hold the case, the settings, versions and warnings as JSON text.
 """
 

@@ -109,9 +109,9 @@ def energy_residual(energy: Energies) -> float:
 def loss_warnings(energy: Energies) -> list[str]:
     """A warning where :func:`numerical_loss` is notable."""
     share = numerical_loss(energy)
-    return [f"steps, mesh and grid viscosity took {100.0 * share:.2g} % of the initial energy"] * (
-        share >= NOTABLE_LOSS
-    )
+    if share < NOTABLE_LOSS:
+        return []
+    return [f"steps, mesh and grid viscosity took {100.0 * share:.2g} % of the initial energy"]
 
 
 def wide_bars(numbers: Mapping[str, Any]) -> list[str]:
@@ -120,6 +120,8 @@ def wide_bars(numbers: Mapping[str, Any]) -> list[str]:
     for name, title in MAY_BE_WIDE.items():
         number, least = numbers.get(name), LEAST_RESTITUTION if name == "restitution" else 0.0
         one_point = name == "half_contact_length" and number is not None and number.value == 0.0
-        if isinstance(number, Number) and number.value is not None and number.bar is not None and not one_point:
-            wide += [title] * (number.bar > WIDE * max(abs(number.value), least))
+        if not isinstance(number, Number) or number.value is None or number.bar is None or one_point:
+            continue
+        if number.bar > WIDE * max(abs(number.value), least):
+            wide.append(title)
     return [f"wide error bars: {', '.join(wide)}; elements, steps and contact law decide here"] if wide else []

@@ -96,8 +96,9 @@ class Question:
         """``method`` as this question takes it: a whole beam's elements are the finer the sooner a run ends."""
         if not self.late:
             return method
-        finer, step = 1.0, getattr(getattr(method, "integrator", None), "time_step", None)
-        if self.until is not None and getattr(method, "mesh", None) is step is None:
+        mesh, step = getattr(method, "mesh", None), getattr(getattr(method, "integrator", None), "time_step", None)
+        finer = 1.0
+        if self.until is not None and mesh is None and step is None:
             end = self.until / self.impact.slow_time_scale
             finer = max(1.0, OF_SHORT * min(1.0, SHORT / end) ** (1.0 / 3.0))
             finer = min(finer * max(1.0, SOON / end) ** 0.5, FINEST)

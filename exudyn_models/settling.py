@@ -83,9 +83,9 @@ class Settling:
             )
             self._follow(mbs)
         elif not self._all_at_once(int(doubtful.sum())):
-            worst = self._patience > -PERSISTENCE
+            by_force = self._patience > -PERSISTENCE
             single = closed.copy()
-            single[np.argmax(wrong) if worst else np.flatnonzero(doubtful)[-1]] ^= True
+            single[np.argmax(wrong) if by_force else np.flatnonzero(doubtful)[-1]] ^= True
             self._set(mbs, single)
         elif self._contact.imposes:
             self._set(mbs, np.where(doubtful, ~closed, closed))

@@ -57,7 +57,7 @@ class Contact(Part, ABC):
     where: ClassVar[str] = "contact"
 
     sticks: ClassVar[bool] = False
-    """Whether :meth:`law` has a strength: a whole beam then gets a scheme in which what has landed rests."""
+    """Whether :meth:`law` may have a strength: a whole beam then gets a scheme in which what has landed rests."""
 
     restitution: Annotated[float, Quantity("", "e", least=0.0, most=1.0)] = 0.0
     hold: Annotated[int, Quantity("", "constraints in the bilateral strip behind the front", least=0)] = 0
@@ -65,7 +65,8 @@ class Contact(Part, ABC):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        for name, value in self.held.items() if self.restitution > 0.0 else ():
+        if self.held and self.restitution > 0.0:
+            name, value = next(iter(self.held.items()))
             raise InputError(
                 f"contact.{name} keeps rows closed that restitution {self.restitution!r} makes rebound: "
                 f"state one of them (got {value!r})"
@@ -79,6 +80,18 @@ class Contact(Part, ABC):
     def law(self, rows: ContactRows, hold_ends: float) -> ContactLaw:
         """What ``rows`` do that have closed; nothing is held from ``hold_ends``, s, on."""
         return ContactLaw(self.restitution, self.hold, self.hold_until, hold_ends)
+
+    def checked_law(self, rows: ContactRows, hold_ends: float) -> ContactLaw:
+        """:meth:`law`, which may be somebody else's; ``ValueError`` where it is none, or may have no such strength."""
+        law, name = self.law(rows, hold_ends), f"contact: {type(self).__name__}"
+        if not isinstance(law, ContactLaw):
+            raise InputError(f"{name}.law must return a ContactLaw (got {law!r})")
+        if np.shape(law.strength) not in ((), (1,), (len(rows),)):
+            shape = np.shape(law.strength)
+            raise InputError(f"{name}.law must give one strength, or one a row, ({len(rows)},) (got shape {shape})")
+        if np.any(law.strength) and not self.sticks:
+            raise InputError(f"{name}.law has a strength: set `sticks = True` in the class")
+        return law
 
     @abstractmethod
     def rows(self, beam: HermiteBeam, facing: Array, *, full: bool) -> ContactRows:

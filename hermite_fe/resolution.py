@@ -132,7 +132,8 @@ def choose(impact: Impact, end_time: float, parts: Composition | None = None) ->
     integrator = parts.integrator or scheme_for(impact, contact)
     # from the mesh before it is refined: then the first step is refined like all others
     integrator = chosen_integrator(impact, end_time, coarse, integrator).refined(parts.refine)
-    for name, value in contact.held.items() if not integrator.holds else ():
+    if contact.held and not integrator.holds:
+        name, value = next(iter(contact.held.items()))
         raise InputError(
             f"contact.{name} has no effect with this integrator, whose rows may always open (got {value!r})"
         )

@@ -92,8 +92,11 @@ class Stepper:
                 "integrator.kind: contact that may pull needs moreau_jean, or signorini_position with theta = 1 "
                 f"(got {kind})"
             )
-        if np.any(law.strength) and law.restitution:
-            raise InputError(f"contact that may pull does not rebound: restitution must be 0 (got {law.restitution!r})")
+        for name in ("restitution", "hold", "hold_until") if np.any(law.strength) else ():
+            if value := getattr(law, name):
+                raise InputError(
+                    f"contact that may pull neither rebounds nor is held: {name} must be 0 (got {value!r})"
+                )
         for name, value in (("q", q), ("v", v)):
             if np.shape(value) != (system.dofs,):
                 raise InputError(f"{name} must have shape ({system.dofs},) (got {np.shape(value)})")

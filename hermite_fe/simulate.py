@@ -90,7 +90,7 @@ def simulate(
         model.velocity,
         choice.integrator,
         end,
-        law=choice.contact.law(model.system.contacts, FIRST_SPREAD * impact.slow_time_scale),
+        law=choice.contact.checked_law(model.system.contacts, FIRST_SPREAD * impact.slow_time_scale),
         save=save,
         progress=progress,
         until=None if until is None else lambda run: until(model, run),

@@ -39,7 +39,8 @@ class ContactRows:
     places : (rows,), x of each, m (for the record).
     rank : (rows,) int, distance from the middle of the beam, in constraints; side : (rows,) int, 0 right of it, 1
         left. Both serve only a hold behind a moving front (:class:`hermite_fe.contacts.Contact`).
-    tributary : (rows,), the length of beam that a row answers for (penalty contact scales with it).
+    tributary : (rows,), the length of beam that a row answers for: of a half beam's middle node half an element's
+        (penalty contact scales with it).
     """
 
     dofs: Places

@@ -42,8 +42,8 @@ def bounce(
 ) -> None:
     """Follow the whole impact to its last separation.
 
-    Gives restitution, contact times, the largest moment and stress of the first hit, each with an error bar. A hit is a
-    time of contact whose gaps are shorter than a period of the first mode. Between supports or walls: simulate.
+    Gives restitution, contact times, the largest moment and stress of the whole motion, each with an error bar. A hit
+    is a time of contact whose gaps are shorter than a period of the first mode. Between supports or walls: simulate.
 
     Example: bentbeam bounce --kappa-over-nu 2 --damping 0.01
     """

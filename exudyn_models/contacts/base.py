@@ -83,7 +83,7 @@ class HeldStrip:
 
     def __init__(self, wall: Wall, hold: int, start: float | None = None) -> None:
         if wall.explicit or wall.first_spread < 1.0 or wall.lifts:
-            start = start or 0.0
+            start = 0.0 if start is None else start
         self.hold = hold
         self.start = min(START if start is None else start, wall.first_spread)
         self.until = wall.first_spread if hold else self.start

@@ -1,7 +1,7 @@
 """Unilateral contact along the beam; what the hold does; a wall that pulls a little; contact points without mass."""
 
 from dataclasses import dataclass
-from typing import Annotated, ClassVar
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 import pytest
@@ -168,6 +168,33 @@ def test_adhesion_lies_between_a_wall_that_only_pushes_and_one_that_holds(scheme
     assert not history.array("in_contact")[-1].any()
     assert abs(history.energy_budget()["defect"]) < 1e-11
     assert pulled(scheme, AdhesiveContact(pull=1e9), 0.3).array("in_contact")[-1].any()
+
+
+def test_the_wall_pulls_a_half_beam_as_it_pulls_the_whole() -> None:
+    """The row in the middle of a half beam stands for half a node."""
+    beam, parts = Impact.whole_beam(2.0), {"mesh": UniformMesh(L), "integrator": MoreauJean(H, theta=0.5)}
+    half, full = (
+        simulate(beam, end_time=0.3, contact=AdhesiveContact(pull=300.0), full_beam=full, **parts)
+        for full in (False, True)
+    )
+    assert half.array("held_impulse")[-1] < -0.01
+    for name in ("total_impulse", "held_impulse", "strain_energy"):
+        assert half.array(name) == pytest.approx(full.array(name), rel=1e-9, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("law", "sticks", "named"),
+    [
+        (None, True, "Odd.law must return a ContactLaw"),
+        (ContactLaw(strength=np.ones(3)), True, r"Odd.law must give one strength, or one a row, \(51,\)"),
+        (ContactLaw(strength=1.0), False, "Odd.law has a strength: set `sticks = True`"),
+        (ContactLaw(strength=1.0, hold=2), True, "neither rebounds nor is held"),
+    ],
+)
+def test_a_law_that_is_none_is_refused_by_name(law: Any, sticks: bool, named: str) -> None:
+    odd = type("Odd", (NodeContact,), {"law": lambda *_: law, "sticks": sticks})()
+    with pytest.raises(ValueError, match=named):
+        pulled(MoreauJean(H, theta=0.5), odd)
 
 
 @SCHEMES
