@@ -64,6 +64,8 @@ def test_the_map_of_forces_holds_the_impulse_and_a_pull_is_a_share_of_a_push_in_
     kept = np.array([0, 30, 40])  # 1.5 and 0.5 s
     given = np.diff(time[kept]) @ force_map(history, kept, edges) @ np.diff(edges) / impact.time_scale
     assert given == pytest.approx(impulse[-1].sum() / (8.0 * impact.length_scale))
+    near = force_map(history, kept, np.array([0.0, 0.55]) / impact.length_scale)[-1, 0] * 0.55
+    assert near == pytest.approx((impulse[40] - impulse[30])[:6].sum() * impact.time_scale / (0.5 * 8.0), rel=1e-9)
     impulse = 1e-3 * np.outer(np.arange(41.0), [3.0, 2.0, 1.0])
     impulse[30:, 1] -= 4e-3
     assert pull_of(history_of(time, x[:3], impact=impact, impulse=impulse)) == pytest.approx(2.0 / 3.0)
