@@ -34,6 +34,9 @@ def test_error_bars_of_a_bounce_hold_the_converged_value(path, elements, widest)
     restitution = found.numbers["restitution"]
     assert set(restitution.parts) == {"mesh_and_step", "contact_law", "saved_instants"}
     assert restitution.bar == sum(restitution.parts.values())
+    last, unit = found.numbers["last_contact"], found.impact.slow_time_scale
+    apart = np.diff(found.history.time)[np.searchsorted(found.history.time, last.known * unit) - 1] / unit
+    assert last.parts["saved_instants"] == pytest.approx(0.5 * apart)  # it lies between two of them
     assert abs(restitution.value - 0.33636) <= restitution.bar < widest
     document = found.to_dict()
     assert json.loads(json.dumps(document)) == document
