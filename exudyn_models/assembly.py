@@ -72,12 +72,12 @@ class Layout:
 
     @property
     def ends_follow(self) -> bool:
-        """Whether the ends bear the moment and shear of the free motion y₀: where the model cuts the beam, until waves
-        from the beam's own ends have time to return, and where they hold a bend q₀."""
+        """Whether the ends bear the moment and shear of the free motion y₀: where the model cuts the beam, and until
+        waves from the beam's own ends have time to return."""
         impact = self.scaling.impact
         own = self.half_length >= impact.half_length * (1.0 - NEAR)
         free = own and lasts_until_waves_return(impact, self.scaling.end_time)
-        return any(self.scaling.loads.terms.values()) and (not free or impact.fourth_derivative != 0.0)
+        return any(self.scaling.loads.terms.values()) and not free
 
 
 def lay_out(impact: Impact, end: float, chosen: Chosen) -> Layout:

@@ -153,6 +153,19 @@ def test_in_other_units_an_impact_is_the_same_and_what_springs_of_the_wall_hold_
     assert (hit.energy, hit.lost) == pytest.approx((0.9, 0.1))
 
 
+def test_what_a_moment_may_have_been_at_first_is_a_share_of_that_of_a_stopped_point() -> None:
+    """0.7 V₀√(EIμ) within the first instants of a damped beam, which its elements do not resolve."""
+    time, x = np.linspace(0.0, 4.0, 4001), np.linspace(0.0, 1.0, 5)
+    for impact, length, moment in ((Impact.whole_beam(2.0), 1.0, 1.0), (HEAVY, 3.0, 2.0)):
+        seconds = impact.slow_time_scale
+        impulse = np.minimum(time, 0.5)[:, None] * 2.0 * length * impact.velocity * impact.mass_per_length * (x == 0.0)
+        found = recorded(
+            seconds * time, impulse, x=length * x, impact=impact.replace(damping=1e-6 * seconds), velocity=0.0,
+            largest_moment=moment * np.where(time < 0.002, 0.7, 0.4), largest_moment_place=0.0 * time,
+        )  # fmt: skip
+        assert whole_impact(found).moment_left_out == pytest.approx(0.7)
+
+
 def test_a_beam_that_has_left_does_not_return_and_one_that_swings_as_wide_as_it_is_away_may() -> None:
     impact, method = Impact.whole_beam(0.5, relative_damping=1e-2), HermiteFE(mesh=UniformMesh(1.0 / 25))
     history = method.simulate_to_separation(impact)
