@@ -29,7 +29,8 @@ from bent_beam.tables import TABLES, WAYS, BeamTable, ImpactTable, RunTable, Wal
 if TYPE_CHECKING:
     from bent_beam.method import Method
 
-__all__ = ["EXAMPLES", "Case", "case_from_tables", "lay_over", "lay_values", "load_case", "read_toml", "value_of"]
+__all__ = ["EXAMPLES", "Case", "case_from_tables", "holds", "lay_over", "lay_values", "load_case", "read_toml",
+           "value_of"]  # fmt: skip
 
 EXAMPLES = Path(__file__).with_name("examples")
 """The folder of the example cases, and of lists of methods below it: `cases/` of the checkout."""
@@ -199,13 +200,14 @@ def lay_values(tables: dict[str, Any], values: Mapping[str, Any], option: str) -
     for key, value in sorted(values.items(), key=lambda item: item[0] == "impact.acceleration"):  # what it needs first
         _lay(tables, key, value, option)
     for key in values:  # a later one that says the same has removed it
-        if not _holds(tables, key):
+        if not holds(tables, key):
             raise InputError(f"{option} {key}: another {option} says the same in its place; leave one of them out")
 
 
-def _holds(tables: Any, key: str) -> bool:
+def holds(tables: Any, key: str) -> bool:
+    """Whether there is something at a ``table.key``."""
     name, _, rest = key.partition(".")
-    return isinstance(tables, dict) and name in tables and (not rest or _holds(tables[name], rest))
+    return isinstance(tables, dict) and name in tables and (not rest or holds(tables[name], rest))
 
 
 def value_of(text: str, name: str = "") -> Any:

@@ -31,6 +31,7 @@ def impact_of(beam: BeamTable, arrival: _ImpactTable, wall: WallTable, section: 
     values["curvature"] = _curvature(beam)
     values |= _damping(beam, math.sqrt(values["bending_stiffness"] / values["mass_per_length"]))
     values["left_end"], values["right_end"] = ends = _ends(beam)
+    _only_with("beam.tension_direction", beam.tension_direction, "a free end", "free" in ends)
     if arrival.angular_speed is not None and beam.axial_force and ends != ("free", "free"):
         raise InputError(
             f"impact.angular_speed = {arrival.angular_speed!r} is of a beam that swings as it is, and "

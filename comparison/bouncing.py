@@ -65,8 +65,8 @@ def bounce(
     beam: Case | Impact,
     method: Method,
     *,
-    runs: int = RUNS,
-    seed: int = SEED,
+    runs: int | None = None,
+    seed: int | None = None,
     save: int | None = None,
     store: RunStore | None = None,
     jobs: int = 1,
@@ -87,10 +87,17 @@ def bounce(
             f"path: {method.path} lacks for_whole_beam(impact), which chooses for a whole beam what it leaves open "
             "(nothing open: return self; docs/guide/add-method.md)"
         )
+    ensemble = case.damping_stated and not converges(impact)
+    for name, value in (("runs", runs), ("seed", seed)):
+        if value is not None and not ensemble:
+            raise InputError(
+                f"{name} has no effect where there is no ensemble, of a beam without damping (got {value!r})"
+            )
     how: dict[str, Any] = {"store": store, "jobs": jobs}
     if not case.damping_stated and not (impact.damping or impact.hysteretic_loss):
         return _over_ratios(case, method, progress or (lambda _: None), how | {"save": save})
-    question = Question(impact, method, save=save, band=None if converges(impact) else (runs, seed))
+    band = (runs or RUNS, SEED if seed is None else seed) if ensemble else None
+    question = Question(impact, method, save=save, band=band)
     made = runs_of(question, whole_reading, progress=progress, **how)
     return Bounce(case, whole_numbers(made), made)
 

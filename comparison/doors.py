@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from bent_beam import Impact, InputError
-from bent_beam.cases import Case, lay_over, read_toml
+from bent_beam.cases import Case, holds, lay_over, lay_values, read_toml
 from bent_beam.checks import shortened
 from bent_beam.files import write_atomically, write_dataset
 from bent_beam.method import Method, method_from_tables
@@ -19,12 +19,12 @@ from comparison.bounced import Bounce
 from comparison.bouncing import case_of
 from comparison.matching import Matched
 from comparison.matching import match as match_all
-from comparison.methods import PATHS
+from comparison.methods import PATHS, check_effect
 from comparison.predicting import PredictedCase, predict_case
 from comparison.readable import csv_text, write_answer
 from comparison.rows import THESIS_KAPPAS, questions
 from comparison.store import RunStore
-from comparison.sweeping import Row, SweepTable, cases_of, row_of, varied_from
+from comparison.sweeping import Row, SweepTable, cases_of, never_leaves, row_of, varied_from
 from comparison.workers import run_all
 
 __all__ = ["Swept", "bounce", "match", "predict", "sweep"]
@@ -125,7 +125,16 @@ def sweep(
         if not isinstance(values, (str, Sequence, np.ndarray)):
             raise InputError(f"vary: {key} takes its values in a list, or as text (got {shortened(values)})")
         given[key] = varied_from(f"{key}={values}")[1] if isinstance(values, str) else list(values)
+    lay_values(laid := deepcopy(tables), {key: values[0] for key, values in given.items() if values}, "--vary")
+    for said in assignments:
+        key = ".".join(name.strip() for name in said.partition("=")[0].split("."))
+        if key in given or not holds(laid, key):
+            raise InputError(f"--set {shortened(said)} has no effect: --vary says the same in every row; leave one out")
     cases = cases_of(tables, given)
+    timed = any(isinstance(case, Case) and never_leaves(case.impact) for _, case in cases)
+    unused = {} if timed else {"run": "the last separation ends a row"}
+    check_effect(assignments, [path], unused, "--set")
+    check_effect(vary, [path], unused, "vary:")
     rows = run_all(
         row_of,
         [(varied, case, path, RunStore.usual(fresh)) for varied, case in cases],

@@ -11,7 +11,7 @@ A methods file is a list of labelled methods, each with the tables that a case h
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -21,10 +21,20 @@ from bent_beam.checks import shortened
 from bent_beam.errors import InputError, nearest, unknown_key
 from bent_beam.method import Method, method_from_tables, paths
 
-__all__ = ["PATHS", "chosen_methods", "methods_from_file", "methods_of"]
+__all__ = ["PATHS", "check_effect", "chosen_methods", "methods_from_file", "methods_of"]
 
 MOST = 10_000
 PATHS = ("hermite", "exudyn")  # that are compared where none is named
+
+
+def check_effect(assignments: Iterable[str], names: Sequence[str], unused: Mapping[str, str], option: str) -> None:
+    """``InputError`` for an assignment to a path that is not among ``names``, or to a table ``unused`` for a reason:
+    what a case file may hold beside others is a mistake where it is asked for."""
+    other = f"asked for is {', '.join(names)}" if names else "nothing is simulated"
+    reasons = dict.fromkeys({*paths()} - {*names}, other) | dict(unused)
+    for assignment in assignments:
+        if (table := assignment.partition(".")[0].strip()) in reasons:
+            raise InputError(f"{option} {shortened(assignment)} has no effect: {reasons[table]}; leave it out")
 
 
 def chosen_methods(

@@ -70,6 +70,8 @@ class Question:
 
     def __post_init__(self) -> None:
         one_of("error_bars", self.error_bars, ERROR_BARS)
+        if self.error_bars == "thorough" and self.late and not converges(self.impact):
+            raise InputError("error_bars: 'thorough' has no effect without damping: bars are those of an ensemble")
 
     @property
     def late(self) -> bool:

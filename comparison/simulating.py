@@ -144,7 +144,7 @@ def simulate_case(
     Raises ``ValueError`` for what the method refuses, :class:`bent_beam.SimulationError` when it cannot finish.
     """
     band = until is None and not converges(case.impact)
-    bars = "drift" if band else error_bars
+    bars = "drift" if band and error_bars == "quick" else error_bars
     question = Question(case.impact, case.method(path), until, save, bars, case.damping_stated)
     read: Any = _whole_run if until is None else partial(_run, question.first_spread, until)
     runs = runs_of(question, read, whole_history=True, progress=progress)

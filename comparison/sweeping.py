@@ -21,6 +21,7 @@ import numpy as np
 from bent_beam.cases import Case, case_from_tables, lay_values, value_of
 from bent_beam.checks import shortened
 from bent_beam.errors import ANY_FAILURE, InputError
+from bent_beam.impact import Impact
 from bent_beam.measure.numbers import Band, Number
 from bent_beam.method import separation_times
 from bent_beam.settings import settings
@@ -37,7 +38,7 @@ from comparison.whole_numbers import WHOLE
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["NAMES", "Row", "SweepTable", "cases_of", "numeric", "row_of", "varied_from"]
+__all__ = ["NAMES", "Row", "SweepTable", "cases_of", "never_leaves", "numeric", "row_of", "varied_from"]
 
 NAMES = tuple(name for name, about in WHOLE.items() if about.heading or name.startswith("peak_moment"))
 """Numbers of a row, SI."""
@@ -110,8 +111,6 @@ def cases_of(
     if not vary or not 1 <= count <= MOST:
         raise InputError(f"vary: takes at least one key with values, and {MOST} rows at most (got {count} rows)")
     for key, values in vary.items():
-        if key.startswith("run."):
-            raise InputError(f"vary: {key} has no effect on a whole impact (got {shortened(list(values))})")
         if len({float(value) if numeric([value]) else str(value) for value in values}) < len(values):
             raise InputError(f"vary: {key} has a value twice (got {shortened(list(values))})")
     combinations = [dict(zip(vary, values)) for values in product(*vary.values())]
@@ -119,6 +118,15 @@ def cases_of(
     if all(isinstance(case, InputError) for case in cases):
         raise cases[0]  # type: ignore[misc]
     return list(zip(combinations, cases))
+
+
+def never_leaves(impact: Impact) -> bool:
+    """Whether no separation is the last: a row then ends with ``run``."""
+    try:
+        separation_times(impact)
+    except InputError:
+        return True
+    return False
 
 
 def _case(tables: Mapping[str, Any], varied: Mapping[str, Any]) -> Case | InputError:
@@ -144,9 +152,7 @@ def row_of(varied: dict[str, Any], case: Case | InputError, path: str, store: Ru
 def _found(case: Case, path: str, store: RunStore) -> dict[str, Any]:
     """What runs say in a row."""
     impact, method = case.impact, case.method(path)
-    try:
-        separation_times(impact)
-    except InputError:
+    if never_leaves(impact):
         runs = runs_to(case, method, (case.end_time,), store)
         numbers = numbers_at(runs, case)
         warnings = [*doubts(impact, case.section), *wide_bars(numbers), *runs.warnings]

@@ -194,6 +194,13 @@ class _Explicit(Integrator):
     explicit: ClassVar[bool] = True
     method: ClassVar[Any]
 
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.time_step is not None and self.safety != type(self).safety:
+            raise InputError(
+                f"exudyn.integrator.safety has no effect next to time_step: give one of them (got {self.safety!r})"
+            )
+
     def configure(self, settings: Any) -> None:
         settings.timeIntegration.solverType = self.method
         settings.timeIntegration.automaticStepSize = False

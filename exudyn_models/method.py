@@ -26,7 +26,7 @@ from bent_beam.meshes import MESHES, Mesh
 from bent_beam.method import Save, made_of, separation_times
 from exudyn_models import whole_beam
 from exudyn_models.assembly import Chosen, lay_out
-from exudyn_models.contacts import CONTACTS, Contact, Penalty, Springs
+from exudyn_models.contacts import CONTACTS, Contact, Penalty, Rigid, Springs
 from exudyn_models.elements import ELEMENTS, Element, chosen_element
 from exudyn_models.geometry import GEOMETRIES, Array, Geometry, supports_or_plate
 from exudyn_models.integrators import INTEGRATORS, Implicit, Integrator
@@ -160,8 +160,19 @@ class ExudynModel(Part):
         element = self.element or chosen_element(impact)
         of_contact = contact.refuses(impact, element, self.integrator or contact.integrator)
         yield from filter(None, (element.refuses(impact), of_contact))
+        yield from self._unused_of_solver(contact)
         if true and impact.off_centre:
             yield "exudyn.geometry.kind true knows the symmetric bow only: with rotation or first_touch take linear"
+
+    def _unused_of_solver(self, contact: Contact) -> Iterator[str]:
+        """Of settings for what this run does not do: Newton's iterations, or repetitions of a step."""
+        explicit, rigid = (self.integrator or contact.integrator).explicit, isinstance(contact, Rigid)
+        if self.solver is None or not (explicit or rigid):
+            return
+        for name, value in vars(self.solver).items():
+            if value != getattr(NewtonSolver, name) and (explicit or name.startswith("contact_")):
+                other = f"exudyn.integrator.kind {type(self.integrator).__name__}" if explicit else "contact.kind rigid"
+                yield f"exudyn.solver.{name} has no effect with {other}: leave it out (got {value!r})"
 
     def simulate(
         self,

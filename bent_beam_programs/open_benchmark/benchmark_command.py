@@ -53,6 +53,7 @@ def benchmark(
 
     Example: bentbeam benchmark --install scikit-fem
     """
+    from bent_beam.errors import InputError
     from bent_beam_programs.open_benchmark.adapter import chosen_adapters
     from bent_beam_programs.open_benchmark.adapter import install as install_environment
     from bent_beam_programs.open_benchmark.campaign import STANDARD, campaign, declared_rows, drawn_once
@@ -62,6 +63,8 @@ def benchmark(
     from comparison.store import check_writable
 
     if install:
+        if solver or problem or adapter or result or seed is not None:
+            raise InputError("--install stops when it is done: leave the options of a run out")
         lines = [install_environment(one) for one in chosen_adapters(install)]
         emit({"installed": lines}, as_json, lambda: "\n".join(lines))
         return 0

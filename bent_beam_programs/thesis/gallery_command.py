@@ -35,9 +35,12 @@ def gallery(
     """
     import sys
 
+    from bent_beam.errors import InputError
     from bent_beam_programs.thesis.gallery import ITEMS, draw_all, listing
     from comparison.store import check_writable
 
+    if list_only and ids:
+        raise InputError(f"--list lists all: leave {ids[0]!r} out")
     if list_only:
         entries = listing()
         emit(entries, as_json, lambda: "\n".join(f"{e['id']:>10}  {e['title']}" for e in entries))

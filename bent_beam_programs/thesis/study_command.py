@@ -47,10 +47,12 @@ def study(
     from bent_beam.errors import InputError, nearest
     from bent_beam.method import paths
     from bent_beam_programs.thesis.studies import STUDIES, run_study
-    from comparison.methods import chosen_methods
+    from comparison.methods import check_effect, chosen_methods
     from comparison.store import check_writable
 
     if name == "list":
+        if case or path or assignments or methods or refine or out:
+            raise InputError("study list takes --json alone")
         titles = [{"name": n, "title": s.title} for n, s in STUDIES.items()]
         options.emit(titles, as_json, lambda: "\n".join(f"{one['name']:>16}  {one['title']}" for one in titles))
         return
@@ -61,6 +63,8 @@ def study(
     of_paths = [one for one in assignments or () if one.partition(".")[0].strip() in paths()]
     loaded = load_case(case, assignments or ())
     asked = path or of_paths or methods or refine is not None
+    if not asked:
+        check_effect(assignments or (), paths(), {"mesh": "the thesis's settings have their own"}, "--set")
     varied = chosen_methods(path or (), of_paths, methods or (), loaded) if asked else []
     refines = options.factors(refine)
     if out is not None:

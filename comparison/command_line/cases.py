@@ -73,8 +73,8 @@ def settings(
     from bent_beam.settings import about
     from comparison.settings_text import settings_markdown, settings_text
 
-    if word and markdown:
-        raise InputError(f"--markdown writes the whole page: leave {word!r} out")
+    if markdown and (word or as_json):
+        raise InputError(f"--markdown writes the whole page: leave {word or '--json'!r} out")
     emit(about(word), as_json, settings_markdown if markdown else lambda: settings_text(word))
 
 
@@ -97,17 +97,22 @@ def predict(
     Example: bentbeam predict cases/drill_pipe.toml --time 0.005 --time 0.01
     """
     from bent_beam.cases import load_case
+    from comparison.methods import check_effect
     from comparison.store import RunStore, check_writable
 
     loaded = load_case(case, assignments or ())
     loaded.method("hermite")  # every table of the case is looked at, also where nothing is simulated
     times = time or [loaded.end_time]
+    simulates = not theory_only and max(times) > 0.0
+    unused = {"run": "--time says when"} if time else {}
+    unused |= {} if simulates else {"mesh": "nothing is simulated"}
+    check_effect(assignments or (), ["hermite"] if simulates else [], unused, "--set")
     for one in times:
         try:
             loaded.impact.checked_time("time", one)
         except ValueError as error:
             raise InputError(f"--time: {error}") from None
-    if out is not None and (theory_only or max(times) <= 0.0):
+    if out is not None and not simulates:
         raise InputError(f"--out {out}: nothing is simulated, so that there is nothing to be drawn")
     check_writable(out, folder=True)
     from comparison.predicting import predict_case  # SciPy: no refusal above waits for it
@@ -142,11 +147,14 @@ def simulate(
     Example: bentbeam simulate cases/thesis_K10.toml --path exudyn --set exudyn.integrator.kind=newmark
     """
     from bent_beam.cases import load_case
+    from comparison.methods import check_effect
 
     loaded = load_case(case, assignments or ())
     loaded.method(path)
     if until not in (None, "separation"):
         raise InputError(f'--until takes "separation" (got {until!r}); an end time is run.end_time')
+    unused = {} if until is None else {"run": "--until separation says how long"}
+    check_effect(assignments or (), [path], unused, "--set")
     check_out(out, overwrite)
     from comparison.simulating import simulate_case  # SciPy: no refusal above waits for it
     from comparison.texts import run_text

@@ -30,8 +30,10 @@ def bounce(
         list[str] | None, of_path("hermite (default), exudyn or an installed one; repeatable: side by side.")
     ] = None,
     assignments: options.Set = None,
-    runs: Annotated[int, typer.Option(min=2, max=1000, help="Runs of the ensemble without damping.")] = 24,
-    seed: Annotated[int, typer.Option(min=0, help="Seed of the ensemble.")] = 15,
+    runs: Annotated[
+        int | None, typer.Option(min=2, max=1000, help="Runs of the ensemble without damping. Default: 24.")
+    ] = None,
+    seed: Annotated[int | None, typer.Option(min=0, help="Seed of the ensemble. Default: 15.")] = None,
     hits: Annotated[int, typer.Option(min=1, max=20, help="Number of hits to follow under loads.")] = 1,
     out: Annotated[Path | None, typer.Option(help="Folder for document, picture and animation.")] = None,
     jobs: options.Jobs = 1,
@@ -91,7 +93,7 @@ def _asked(
 ) -> list[tuple[Case, Method]]:
     """The case, or that of the two numbers, with the method of each path."""
     from bent_beam.cases import load_case
-    from comparison.methods import methods_of
+    from comparison.methods import check_effect, methods_of
 
     if (case is None) == (kappa_over_nu is None):
         raise InputError("bounce takes a case file or --kappa-over-nu, one of them")
@@ -99,6 +101,7 @@ def _asked(
         if damping is not None:
             raise InputError(f"--damping {damping!r} goes with --kappa-over-nu; in a case set beam.damping (s)")
         loaded = load_case(case, assignments)
+        check_effect(assignments, paths, {"run": "the last separation ends it"}, "--set")
         return [(loaded, method) for method in methods_of(paths, (), loaded)]
     if damping is None:
         raise InputError("--damping is required next to --kappa-over-nu (eta/T*; 0 for none)")

@@ -17,6 +17,7 @@ import exudyn.itemInterface as items
 import numpy as np
 
 from bent_beam import Impact
+from bent_beam.errors import InputError
 from bent_beam.fields import Quantity
 from bent_beam.loads import UNSHEARED
 from exudyn_models.contacts.base import Contact, ContactRun, Wall
@@ -107,6 +108,12 @@ class SegmentFriction(Contact):
     relative_friction_damping: Annotated[
         float, Quantity("", "tangential force per sliding velocity below Coulomb's limit, in √(EIμ)/Δx²", above=0.0)
     ] = 1.0
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        given = self.relative_friction_damping
+        if not self.friction and given != type(self).relative_friction_damping:
+            raise InputError(f"{self.where}.relative_friction_damping has no effect without friction (got {given!r})")
 
     def refuses(self, impact: Impact, element: Element, integrator: Integrator) -> str | None:
         reason = None

@@ -80,7 +80,8 @@ class Scripted:
 
 @pytest.mark.parametrize("damping", [1e-3, 0.0])
 def test_a_single_run_that_ends_at_the_wall_is_told_with_the_numbers_that_it_enters(damping) -> None:
-    found = bounce(problem(2.0, damping), Scripted(), runs=4, seed=0)
+    ensemble = {} if damping else {"runs": 4, "seed": 0}
+    found = bounce(problem(2.0, damping), Scripted(), **ensemble)
     assert found.outcome.left and not found.left and found.to_dict()["left"] is False
     assert any("not left the wall" in warning for warning in found.warnings)
     gone = ("restitution", "impulse", "last_contact")  # of the hit, which is not over

@@ -16,7 +16,7 @@ from comparison.command_line.app import run
 from hermite_fe import HermiteFE
 from self_similar_fe import SelfSimilarFE
 
-K10 = str(CASES / "thesis_K10.toml")
+K10, TUBE = str(CASES / "thesis_K10.toml"), str(CASES / "tube.toml")
 
 
 def test_theory():
@@ -70,6 +70,36 @@ def test_a_match_whose_rows_are_all_refused_is_bad_input_and_still_a_document(ca
         (["study", "colour", K10], "colour"),
         (["gallery", "fig-9.9"], "fig-9.9"),
         (["frobnicate"], "frobnicate"),
+        # what would have no effect
+        (["simulate", K10, "--set", "exudyn.refine=2"], "'exudyn.refine=2' has no effect: asked for is hermite"),
+        (["simulate", K10, "--until", "separation", "--set", "run.end_time=1"], "--until separation says how long"),
+        (["simulate", K10, "--overwrite"], "without --out"),
+        (["bounce", K10, "--set", "self_similar.refine=2"], "asked for is hermite"),
+        (["bounce", K10, "--path", "exudyn", "--set", "run.duration=1"], "the last separation ends it"),
+        (["bounce", "--kappa-over-nu", "2", "--damping", "0.1", "--seed", "0"], "seed has no effect"),
+        (["bounce", K10, "--runs", "3"], "runs has no effect"),
+        (["sweep", K10, "--vary", "exudyn.refine=1,2"], "vary: 'exudyn.refine' has no effect: asked for"),
+        (["sweep", K10, "--vary", "run.end_time=1,2"], "the last separation ends a row"),
+        (["sweep", K10, "--vary", "impact.velocity=1,2", "--set", "impact.velocity=3"], "says the same in every row"),
+        (
+            ["sweep", K10, "--vary", "impact.velocity=1,2", "--set", "impact.drop_height=3"],
+            "says the same in every row",
+        ),
+        (["predict", K10, "--theory-only", "--set", "hermite.refine=2"], "nothing is simulated"),
+        (
+            ["predict", K10, "--time", "0", "--set", "mesh.kind=uniform", "--set", "mesh.element_length=1"],
+            "is simulated",
+        ),
+        (["predict", K10, "--theory-only", "--time", "1e-4", "--set", "run.end_time=1"], "--time says when"),
+        (
+            ["simulate", TUBE, "--set", "beam.damping=0", "--until", "separation", "--error-bars", "thorough"],
+            "'thorough' has no effect without damping",
+        ),
+        (["settings", "--json", "--markdown"], "--markdown writes the whole page"),
+        (["study", "list", K10], "study list takes --json alone"),
+        (["study", "contact-point", K10, "--set", "mesh.kind=uniform", "--set", "mesh.element_length=1"], "their own"),
+        (["gallery", "--list", "fig-3.9"], "--list lists all"),
+        (["benchmark", "--install", "scikit-fem", "--seed", "1"], "--install stops when it is done"),
     ],
 )
 def test_bad_input_is_one_line_and_exit_2(arguments, message):
