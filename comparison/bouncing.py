@@ -36,6 +36,7 @@ RUNS = 24  # of a band
 SEED = 15
 DAMPING_RATIOS = (0.0002, 0.002, 0.02)  # of the first mode: bare steel, a bar as it is held, with joints
 LONGEST, INSTANTS = 100.0, 200  # T*, of the longest run that follows hits; saved a T* of it
+RESTS = 10.0  # periods of the lowest mode: a hit that lasts longer is the last
 RETURNS = 2.0  # bars of the restitution: the mean velocity has one, waves move a point of the beam as much again
 LARGEST_KAPPA = 100.0  # beyond, and long before, the beam touches in one point: infinity is calculated as this
 
@@ -116,8 +117,8 @@ def whole_numbers(made: Runs) -> dict[str, Number | Band]:
     """Every number of a whole impact; those of its end only where the beam left."""
     reading = made.run.reading
     names = NUMBERS if reading["peak_force"] is None else (*NUMBERS, "peak_force")
-    known = {name: {"saved_instants": 0.5 * reading["spacing"]} for name in TIMES}
-    known["restitution"] = {"saved_instants": reading["drift"]}
+    known = {name: {"saved_instants": reading["within"]} for name in TIMES}
+    known |= {name: {"saved_instants": change} for name, change in reading["drift"].items()}
     known["push"] = {"saved_instants": reading["push_rise"]}
     known["last_contact"]["contacts"] = _shifted(made)
     known["peak_moment"] = unseen_of_moment(made)
@@ -151,7 +152,8 @@ def _may_return(made: Runs, restitution: Number) -> float:
 
 
 def follow_hits(impact: Impact, method: Method, count: int, *, first: ImpactHistory) -> list[Hit]:
-    """The first ``count`` hits of a beam on its wall by one run, fewer where it does not come back.
+    """The first ``count`` hits of a beam on its wall by one run, fewer where it does not come back or comes to rest: a
+    hit that is not over within :data:`RESTS` periods of the lowest mode.
 
     first : the run that a first hit has been read from: the first row is its own.
     Raises ``ValueError`` for what the method refuses, and between two walls.
@@ -162,7 +164,8 @@ def follow_hits(impact: Impact, method: Method, count: int, *, first: ImpactHist
     while True:
         found = hits(chosen.simulate(impact, end_time=end, save=separation_times(impact, end, INSTANTS)))
         over = [hit for hit in found if end - hit.end >= period]
-        if len(over) >= count or end >= longest or (over and fall <= 0.0):
+        rests = len(over) < len(found) and end - found[-1].begin >= RESTS * period
+        if len(over) >= count or rests or end >= longest or (over and fall <= 0.0):
             return [*hits(first)[:1], *over[1:count]]
-        flight = 2.0 * max(-over[-1].after, 0.0) / fall if over else end
-        end = min(end + flight + 2.0 * period, longest)
+        flight = 2.0 * max(-over[-1].after, 0.0) / fall if over else 0.0
+        end = min(max(2.0 * end, end + flight + 2.0 * period), longest)

@@ -62,8 +62,7 @@ def doubts(impact: Impact, section: Section | None) -> list[str]:
         found.append("the second wall is flat and the first one curved: their distance varies along the beam")
     force, pull = impact.axial_force, impact.axial_force * impact.length**2
     pull /= math.pi**2 * impact.bending_stiffness
-    held = impact.tension_direction == "tangent" and not impact.acceleration
-    if pull > STRAIGHTENED and impact.curvature and not (impact.supported or held):
+    if pull > STRAIGHTENED and impact.curvature and impact.tension_direction == "axis" and not impact.supported:
         found.append(
             f"the bow is free of stress and not in equilibrium under the tension, which straightens it (at rest to "
             f"about {100.0 / (1.0 + pull):.2g} % of its height); where other forces hold it, give "
@@ -81,13 +80,14 @@ def comparable(impact: Impact) -> bool:
     return impact.relative_curvature > 0.0 and not impact.off_centre and unmodelled(impact, MODELLED) is None
 
 
-def energy_at_end(history: ImpactHistory) -> dict[str, float | None]:
-    """The energies at the end, J, what was lost on the way, by cause, and the defect: what these do not explain."""
-    budget = history.energy_budget()
+def energy_at_end(history: ImpactHistory, until: float | None = None) -> dict[str, float | None]:
+    """The energies at the end, or at ``until``, s, in J, what was lost on the way, by cause, and the defect: what these
+    do not explain."""
+    budget = history.energy_budget(until)
     return {
         "initial": budget["initial_energy"],
-        "kinetic": float(history.array("kinetic_energy")[-1]),
-        "strain": float(history.array("strain_energy")[-1]),
+        "kinetic": float(history.array("kinetic_energy")[0]) + budget["kinetic_energy"],
+        "strain": float(history.array("strain_energy")[0]) + budget["strain_energy"],
         "wall": budget.get("contact_energy"),
         **{name: budget.get(name) for name in ("work_of_loads", *LOSSES)},
         "defect": budget["defect"],

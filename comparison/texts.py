@@ -249,9 +249,10 @@ def _damping_of(found: dict[str, Any]) -> str:
 def run_text(found: dict[str, Any], verbose: bool = False) -> str:
     """The summary of one run for a reader; ``verbose``: with what tells an expert how good it is."""
     until = f"until {1e3 * found['time']:.4g} ms"
+    behind = any(hit["wall"] == "opposite" for hit in found["hits"] or ())
     lines = [
         _compared("half contact length", found["half_contact_length"], "m"),
-        _compared("impulse", found["total_impulse"], "N s"),
+        _compared("impulse, of the front less the opposite" if behind else "impulse", found["total_impulse"], "N s"),
     ]
     peaks = {"moment": (f"largest bending moment, {until}", "N m"), "stress": (f"largest stress, {until}", "Pa")}
     if found["peak_force"] is not None:  # of a wall that gives way

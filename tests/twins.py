@@ -122,6 +122,9 @@ def agree(
     same number."""
     for name, value in vars(one).items():
         theirs, unit = getattr(other, name), factor(units.get(name, "1"), base)
+        if isinstance(value, dict) and all(isinstance(part, float) for part in value.values()):
+            assert value.keys() == theirs.keys()
+            value, theirs = tuple(value.values()), tuple(theirs.values())
         parts = value if isinstance(value, tuple) else (value,)
         if parts and is_dataclass(parts[0]):
             for part, its in zip(parts, theirs if isinstance(value, tuple) else (theirs,), strict=True):

@@ -32,6 +32,7 @@ __all__ = ["SHORTEST_SEPARATION", "WINDOW", "Hit", "WholeImpact", "hits", "peak_
 
 Array = NDArray[np.float64]
 
+SHARES = ("translation", "vibration", "dissipated")  # of the energy
 WINDOW = 0.01
 """In which impulses are added up, T*: a rigid wall has no largest force."""
 SHORTEST_SEPARATION = 2e-3
@@ -43,13 +44,14 @@ class WholeImpact:
     """One run's whole impact, dimensionless (see the module's head).
 
     restitution : ``None`` where the beam has not left: loads keep it on the wall, or the run ends too early.
-    spacing : of the saved instants around the last contact, which lies between two of them: ``last_contact`` is their
-        middle. drift : what the loads change the restitution by in half of it.
+    within : ``last_contact`` is the middle between two saved instants, and known within half of their distance; within
+        all of it where a wall gives way, whose last push is nothing. drift : how much restitution and shares of the
+        energy change in that.
     until : end of the span that the largest moment and force are of.
     contacts : begin and end of each contact, separations shorter than the shortest ignored; the last ends at the last
         contact. returns : when the beam is nearest to the wall again, within a period after the last contact, and the
         mean velocity since then by which it misses the wall, V₀.
-    peak_moment_place : |x|/ℓ. moment_left_out : what the moment may have been at first
+    peak_moment_place : x/ℓ, of a symmetric impact |x|/ℓ. moment_left_out : what the moment may have been at first
         (:func:`bent_beam.measure.reduction.moment_left_out`).
     translation, vibration, dissipated : shares of the initial energy and the work of the loads, altogether one; the
         rotation of a beam that rocks counts as vibration.
@@ -82,8 +84,8 @@ class WholeImpact:
     push_time: float
     push_rise: float
     supplied: float
-    spacing: float
-    drift: float
+    within: float
+    drift: dict[str, float]
     until: float
     contacts: tuple[tuple[float, float], ...]
     returns: tuple[tuple[float, float], ...]
@@ -98,7 +100,8 @@ def pushes(time: Array, impulse: Array, shortest: float) -> list[tuple[int, int]
     pushed = np.flatnonzero(acting(impulse))
     if pushed.size == 0:
         return []
-    apart = np.flatnonzero(time[pushed[1:]] - time[pushed[:-1] + 1] >= shortest * (1.0 - 1e-9))
+    off = time[pushed[1:]] - time[pushed[:-1] + 1]
+    apart = np.flatnonzero((np.diff(pushed) > 1) & (off >= shortest * (1.0 - 1e-9)))
     begin = np.concatenate([pushed[:1], pushed[apart + 1]])
     end = np.concatenate([pushed[apart], pushed[-1:]]) + 1
     return [(int(i), int(k)) for i, k in zip(begin, end)]
@@ -119,7 +122,7 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
     hit = _grouped([(i, k, "front") for i, k in contacts], impact, time)[0]
     _, end, _ = hit[-1]
     last = 0.5 * float(time[end - 1] + time[end])
-    impulse, load = float(total[end]) / (mass * speed), impact.load_within(impact.half_length) / (mass * speed)
+    impulse = float(total[end]) / (mass * speed)
     until = min(float(time[contacts[-1][1]]) + LOWEST_PERIOD * unit, float(time[-1]))
     moment = speed * math.sqrt(impact.bending_stiffness * impact.mass_per_length)
     peak, wall, left = peak_moment(history, until=until), wall_peaks(history, until=until), has_left(history)
@@ -131,34 +134,38 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
     k = int(np.argmax(gained))
     rise = _rise_between(gained, k) if impact.wall_stiffness is not None else 0.0
     begin = k + max(int(np.argmax(total[k:] > total[k])) - 1, 0)
-    kept, supplied = (float(np.interp(last, time, values)) for values in (energy, work))
-    first = hit[0][0]
-    before, after = (_velocity(history, k, at) for k, at in ((first, float(time[first])), (end, last)))
+    before = _velocity(history, hit[0][0], float(time[hit[0][0]]))
     arrives = abs(before) > 1e-6 * speed  # a beam that only turns has no restitution
-    share = 1.0 / before if arrives else 0.0
-    restitution, translation = -after * share, 0.5 * mass * after**2 / supplied
+
+    def at(instant: float) -> dict[str, float]:
+        after, (kept, given) = _velocity(history, end, instant), (np.interp(instant, time, v) for v in (energy, work))
+        translation = 0.5 * mass * after**2 / given
+        shares = (translation, kept / given - translation, 1.0 - kept / given)
+        return {"restitution": -after / before if arrives else 0.0} | dict(zip(SHARES, map(float, shares)))
+
+    found, begins, ends = (at(instant) for instant in (last, float(time[end - 1]), float(time[end])))
+    part, gone = 0.5 if impact.wall_stiffness is None else 1.0, arrives and (left or len(contacts) > len(hit))
+    restitution = found["restitution"] if gone else None
     return WholeImpact(
-        restitution=restitution if arrives and (left or len(contacts) > len(hit)) else None,
+        restitution=restitution,
+        **{name: found[name] for name in SHARES},
         impulse=2.0 * impulse,
         last_contact=last / unit,
         separations=len(hit) - (0 if len(contacts) > len(hit) or left else 1),
         peak_moment=peak.moment / moment,
-        peak_moment_place=abs(peak.place) / impact.half_length,
+        peak_moment_place=(peak.place if impact.off_centre else abs(peak.place)) / impact.half_length,
         peak_moment_time=peak.time / unit,
         moment_left_out=moment_left_out(history) / moment,
         midspan_moment=peak.midspan / moment,
-        translation=translation,
-        vibration=kept / supplied - translation,
-        dissipated=1.0 - kept / supplied,
         peak_force=None if wall is None else 2.0 * wall.force * unit / (mass * speed),
         peak_force_time=None if wall is None else wall.time / unit,
         peak_force_place=None if wall is None or wall.place is None else wall.place / impact.half_length,
         push=2.0 * (float(gained[k]) + rise) / (mass * speed),
         push_time=float(time[begin]) / unit,
         push_rise=2.0 * rise / (mass * speed),
-        supplied=supplied,
-        spacing=float(time[end] - time[end - 1]) / unit,
-        drift=0.5 * abs(load * speed * share) * float(time[end] - time[end - 1]),
+        supplied=float(np.interp(last, time, work)),
+        within=part * float(time[end] - time[end - 1]) / unit,
+        drift={name: part * abs(ends[name] - begins[name]) for name in found},
         until=until / unit,
         contacts=tuple((float(time[i]) / unit, 0.5 * float(time[j - 1] + time[j]) / unit) for i, j, _ in hit),
         returns=_returns(history, end),

@@ -72,6 +72,9 @@ def bounce(
         document["paths"] = [{"path": name, **one.to_dict()} for name, one in zip(paths, every)]
     if hits > 1:
         document["hits"] = rows
+    few = f"{len(rows)} of {hits} hits: after that the beam does not come back, or comes to rest on its wall"
+    fewer = [few] if len(rows) < hits > 1 else []
+    document["warnings"] += fewer
     if out is not None:
         try:
             document["files"] = [str(file) for file in found.write(out, document)]
@@ -81,7 +84,8 @@ def bounce(
     def text() -> str:
         tables = [one.text(verbose=verbose) for one in every]
         titled = tables if len(paths) == 1 else [f"{name}\n{table}\n" for name, table in zip(paths, tables)]
-        return "\n".join([*titled, *(["", hits_table(rows, OF_ONE_WALL)] if rows else [])])
+        table = ["", hits_table(rows, OF_ONE_WALL)] if rows else []
+        return "\n".join([*titled, *table, *(f"warning: {line}" for line in fewer)])
 
     emit(document, as_json, text)
     if problem_of_files:

@@ -100,15 +100,31 @@ def test_a_steel_rod_that_falls_on_a_wall_rebounds_with_0_63_of_its_velocity(tmp
     assert found.impulse == pytest.approx(2.0 * (1.0 + found.restitution + fall), rel=2e-3)
 
 
+def test_a_contact_before_one_wall_stays_one_while_the_other_pushes_too() -> None:
+    """However often the run is saved: 0 to 0.5 T* in front, 0.2 to 0.4 T* behind."""
+    for count in (41, 401):
+        time = np.linspace(0.0, 1.0, count)
+        front, behind = (
+            np.outer(np.clip(time - begin, 0.0, span), np.ones(5)) for begin, span in ((0.0, 0.5), (0.2, 0.2))
+        )
+        run = recorded(time, front, total_impulse=2.0 * (front - behind).sum(axis=1)).dataset
+        run["opposite_impulse"] = run["impulse"] * 0.0 + behind
+        found = hits(ImpactHistory.of(run))
+        assert [hit.wall for hit in found] == ["front", "opposite"]
+        assert [(hit.begin, hit.end) for hit in found] == [
+            pytest.approx(ends, abs=0.03) for ends in ((0, 0.5), (0.2, 0.4))
+        ]
+
+
 def test_hits_are_contacts_whose_gaps_are_shorter_than_a_period_of_the_first_mode() -> None:
     """Numbers are those of the first hit: a contact 2.5 T* later is another hit, one 0.5 T* later belongs to it."""
     twice = pushed_until(0.5, last=4.0, again=3.0)
     found = whole_impact(twice)
-    assert found.contacts == ((0.0, pytest.approx(0.5, abs=found.spacing)),)
+    assert found.contacts == ((0.0, pytest.approx(0.5, abs=2.0 * found.within)),)
     assert found.contacts[-1][1] == found.last_contact == hits(twice)[0].end  # one last contact
     assert found.restitution == pytest.approx(0.45)
     soon = whole_impact(pushed_until(0.5, last=4.0, again=1.0))
-    assert np.array(soon.contacts) == pytest.approx(np.array([[0.0, 0.5], [1.0, 1.5]]), abs=soon.spacing)
+    assert np.array(soon.contacts) == pytest.approx(np.array([[0.0, 0.5], [1.0, 1.5]]), abs=2.0 * soon.within)
     assert soon.restitution == pytest.approx(1.9)
     for hit, begin, before, after in zip(hits(twice), (0.0, 3.0), (1.0, -0.45), (-0.45, -1.9), strict=True):
         assert (hit.begin, hit.before, hit.after) == pytest.approx((begin, before, after))
@@ -146,6 +162,7 @@ def test_in_other_units_an_impact_is_the_same_and_what_springs_of_the_wall_hold_
     for pairs in ("contacts", "returns"):
         assert one[pairs] and np.ravel(same.pop(pairs)) == pytest.approx(np.ravel(one.pop(pairs)))
     same["push_time"] = one["push_time"]  # a steady force is largest anywhere
+    assert same.pop("drift") == pytest.approx(one.pop("drift"))
     assert same == pytest.approx(one | {"supplied": 6.0 * one["supplied"]})
     for hit, alike in zip(hits(run), hits(other), strict=True):
         numbers = np.array(dataclasses.astuple(hit)[1:])
