@@ -11,17 +11,25 @@ and what compares with it do so, too (:func:`unmodelled`).
 
 To add a load:
 
-1. ``scales.py``: its field. A force at a place that can be chosen has a second field, the place, with its key in
-   ``tables.py`` and ``description.py``; ``impact.py`` checks that it is on the beam, ``meshes.snapped`` puts a node
-   there. A load without a term of y₀ has its share in ``load_within``, of which momentum, balances and hits follow.
-   Where it can pull the beam off the wall, ``lifts`` says so; where it acts on one half alone, ``off_centre``.
+1. ``scales.py``: its field, with ``instead=SIMULATED``, of which a refusal takes its advice. A force at a place that
+   can be chosen has a second field, the place, with its key in ``tables.py`` and ``description.py``; ``impact.py``
+   (``_check_arrangement``) is to check that it is on the beam, and ``meshes.snapped``, called in
+   ``hermite_fe/resolution.py`` and ``exudyn_models/assembly.py``, to put a node there. A load without a term of y₀ has
+   its share in ``load_within``, of which momentum, balances and hits follow. Where it can pull or turn the beam off the
+   wall, ``lifts`` says so; where it acts on one half alone, ``off_centre``, by which ``comparison/doubts.py`` tells
+   where the beam touches.
 2. Each path that models it: its name in ``MODELLED`` (``hermite_fe/model.py``, ``exudyn_models/method.py``) and, of a
    load without a term, its force, of which half a beam takes half at the middle: ``nodal_loads`` in
-   ``hermite_fe/model.py``; ``assemble`` in ``exudyn_models/assembly.py``.
+   ``hermite_fe/model.py``; ``assemble`` in ``exudyn_models/assembly.py``, in the model's units (``Scaling``) and times
+   its ``amplitude``. A path that models a part of a long beam, with coarse elements far out, refuses a place beyond
+   them. Exudyn asks y₀ what the beam can do: tell such a load to ``chosen_half_length``, ``chosen_mesh`` and
+   ``reachable`` (``resolution.py``), ``amplitude_of`` (``geometry.py``) and ``fastest`` (``recording.py``).
 3. ``first_spread`` in ``comparison/questions.py``, where it is uneven over the zone: the half length is then that
    of the outermost point that pushes, and not of the centroid of the pushes.
-4. A test (``tests/measure/test_balance.py`` has the balances), rows in ``docs/guide/problems.md`` and
-   ``docs/scope.md``, a line in ``CHANGELOG.md``, and the stored numbers confirmed (``make stored``: some minutes).
+4. A line in ``new_case.py``; ``INSTEAD`` in the page's ``case.js`` says which command takes it. A test
+   (``tests/measure/test_balance.py`` has the balances, ``tests/twins.py`` runs in other units, ``benchmarks/beams.py``
+   draws beams), rows in ``docs/guide/problems.md`` and ``docs/scope.md``, a line in ``CHANGELOG.md``, and the stored
+   numbers confirmed (``make stored``: some minutes).
 
 A beam with held ends,
 
@@ -55,7 +63,7 @@ __all__ = [
 Array = NDArray[np.float64]
 Powers = tuple[int, int]
 UNSHEARED = ': [beam] model = "euler_bernoulli" leaves shear out'
-SIMULATED = ": bentbeam simulate follows it, on the Hermite and the Exudyn path"
+SIMULATED = ": bentbeam simulate and bounce follow it, on the Hermite and the Exudyn path"
 
 
 @dataclass(frozen=True)

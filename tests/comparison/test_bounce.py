@@ -4,13 +4,15 @@ import dataclasses
 import json
 import math
 import os
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
 from called import answered, refused
 from histories import pushed_until, rod
+from scipy.integrate import solve_ivp
 
+from bent_beam import Impact
 from bent_beam.free_flight import has_left
 from bent_beam.history import ImpactHistory
 from bent_beam.measure.numbers import Band, Number
@@ -188,3 +190,32 @@ def test_what_companions_say_at_other_damping_ratios_is_passed_on_and_their_seco
     lost = dataclasses.replace(other, runs=dataclasses.replace(other.runs, lost=["no companion run"]))
     told = dataclasses.replace(found, over={**found.over, 0.5: lost}).warnings
     assert any(line.startswith("50 %: no companion run") for line in told)
+
+
+@pytest.mark.parametrize(("velocity", "weight", "zeta"), [(1.0, 0.5, 0.0), (2.0, 0.5, 0.2), (1.0, 1.2, 0.05)])
+def test_a_straight_bar_on_a_soft_wall_leaves_as_a_mass_on_a_spring_does(velocity, weight, zeta) -> None:
+    """ẍ = g − ω²x − 2ζωẋ while that pushes: nothing vibrates, and what is left is ½ẋ² of ½V₀² + gx."""
+    omega = 8.0
+    bar = Impact(1.0, 1.0, 2.0, 0.0, velocity, damping=1e-2, acceleration=weight)
+    found = bounce(bar.replace(wall_stiffness=omega**2, wall_damping=2.0 * zeta * omega), COARSE)
+
+    def push(x: float, v: float) -> float:
+        return omega**2 * x + 2.0 * zeta * omega * v
+
+    def lifts(_: float, state: Any) -> float:
+        return push(*state) if state[1] < 0.0 else 1.0
+
+    lifts.terminal = True  # type: ignore[attr-defined]
+    end = solve_ivp(
+        lambda _, s: (s[1], weight - push(*s)), (0.0, 9.0), (0.0, velocity), events=lifts, rtol=1e-10, atol=1e-12
+    )
+    x, v = end.y[:, -1]
+    left = 0.5 * v**2 / (0.5 * velocity**2 + weight * x)
+    for name, exact in (
+        ("translation", left),
+        ("vibration", 0.0),
+        ("dissipated", 1.0 - left),
+        ("restitution", -v / velocity),
+    ):
+        number = found.numbers[name]
+        assert abs(number.known - exact) <= number.bar < 0.01, (name, exact, number)
