@@ -148,7 +148,7 @@ def _check_frequency(given: float | None, impact: Impact) -> None:
 
 OWN = 0.1  # of a frequency: closer it is the lowest mode's
 
-BUCKLING = {
+BUCKLING = {  # by both ends
     frozenset({"free"}): 1.0,  # of a bow at rest
     frozenset({"hinged"}): 1.0,
     frozenset({"clamped", "free"}): 0.25,
