@@ -41,6 +41,14 @@ def test_a_load_in_si_units_presses_as_in_simulate():
     assert read["impulse"][-1, 0] == pytest.approx(history.array("total_impulse")[-1], rel=5e-3)
 
 
+def test_the_ends_bear_moment_and_shear_of_a_bend_in_si_units():
+    """EI q₀x²/2 and −EI q₀x of y₀ = q₀x⁴/24."""
+    model = exudyn_models.build(STEEL.replace(fourth_derivative=0.01), mesh=MESH)
+    loads = (model.mbs.GetLoad(n) for n in range(model.mbs.systemData.NumberOfLoads()))
+    found = [load["load"] / model.scale for load in loads if load["loadType"] == "Coordinate"]
+    assert found == pytest.approx([2.1e3 * 0.01 * 1.5**2 / 2.0, -2.1e3 * 0.01 * 1.5])
+
+
 def test_elements_are_equal_in_the_zone_and_longer_ahead_of_it():
     model = exudyn_models.build(SHORT)
     lengths = np.diff([model.mbs.GetNode(node)["referenceCoordinates"][0] for node in model.nodes])
