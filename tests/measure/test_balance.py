@@ -62,6 +62,9 @@ def test_part_of_a_long_beam_an_expanding_mesh_and_a_beam_under_tension_keep_the
         assert balance_of(method.simulate(endless, end_time=0.1)).momentum < 5e-4
     method = ExudynModel(mesh=UniformMesh(1.0 / 30))
     assert balance_of(method.simulate(tense, end_time=0.3, save=300)).momentum < 5e-4
+    data = expanding.simulate(endless, end_time=0.1).dataset  # near the zone its gap means something
+    inside = balance_of(ImpactHistory.of(data.assign(gap=data["gap"] - 0.02 * data["time"])))
+    assert inside.penetration == pytest.approx(0.02, rel=0.1)
     bent = tense.replace(fourth_derivative=2.0)  # its ends pull at a tangent that turns
     assert balance_of(method.simulate(bent, end_time=0.005, save=20)).momentum is None
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from theory.ladder import BouncingBall, FlyingBar, ReleasedBar, StringOnObstacle
+from theory.ladder import BouncingBall, DroppedBar, FlyingBar, ReleasedBar, StringOnObstacle
 
 
 # ball
@@ -133,3 +133,22 @@ def test_the_string_stays_above_the_obstacle_keeps_its_energy_and_obeys_the_wave
     inertia, _ = differences(string.velocity_at, x, t, 1e-5)
     _, pull = differences(string.strain, x, t, 1e-5)
     np.testing.assert_allclose(inertia, pull, atol=1e-7)
+
+
+def test_a_dropped_bar_pushes_as_masses_and_springs_do() -> None:
+    """Steps of Δx/c carry its waves exactly; what impacts take of the half mass at its end falls with Δx."""
+    bar, n = DroppedBar(length=2.0, stiffness=8.0, mass_per_length=2.0, gravity=0.05, height=0.4), 400
+    h = bar.length / n / 2.0  # c = 2
+    mass = np.full(n + 1, bar.mass_per_length * bar.length / n)
+    mass[[0, -1]] *= 0.5
+    before = u = np.full(n + 1, bar.height)
+    given, steps = [0.0], round(1.9 * (bar.flight + bar.contact) / h)
+    for _ in range(steps):
+        strains = bar.stiffness * np.diff(u) / (bar.length / n)
+        force = np.diff(strains, prepend=0.0, append=0.0) - mass * bar.gravity
+        after = 2.0 * u - before + h**2 * force / mass
+        push = max(0.0, -after[0]) * mass[0] / h**2
+        after[0] = max(after[0], 0.0)
+        before, u = u, after
+        given.append(given[-1] + push * h)
+    assert given == pytest.approx(bar.impulse(h * np.arange(steps + 1)), abs=0.01 * max(given))
