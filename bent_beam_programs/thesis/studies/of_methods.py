@@ -112,7 +112,12 @@ class MethodOnCase:
         return self.with_parts(**{name: dataclasses.replace(part, **values)})
 
     def over(self, name: str, field: str, words: str, values: Sequence[float]) -> list[Setting]:
-        """One field of a part at several values, which are named by ``words``."""
+        """One field of a part at several values, which are named by ``words``. Raises :class:`NotVaried` where the
+        method states one: no row would have it."""
+        part = self.part(name)
+        stated = getattr(part, field, None)
+        if stated not in (getattr(type(part), field, stated), *values):
+            raise NotVaried(f"its {name}.{field} is what the study varies: leave it out (got {stated!r})")
         return [Setting(words.format(v), self.with_field(name, **{field: v}), v) for v in values]
 
     def laid_on(self, mesh: Mesh) -> Method:
