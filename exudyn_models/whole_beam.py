@@ -30,6 +30,7 @@ from exudyn_models.elements import chosen_element
 from exudyn_models.geometry import supports_or_plate
 from exudyn_models.integrators import Implicit, Trapezoidal
 from exudyn_models.resolution import STEP, near_buckling, resolving_step, shortest_element, step_of_wall
+from exudyn_models.solvers import NewtonSolver
 
 __all__ = ["cross_checks", "for_whole_beam", "varied"]
 
@@ -76,8 +77,11 @@ def for_whole_beam(method: M, impact: Impact) -> M:
         softer = slower != 1.0 and not shears
         contact = ON_PLATE if plate else _softer(UNHELD, slower**-2) if softer else UNHELD
     solver = method.solver
-    if solver is None and contact is not None and getattr(integrator, "flight_step", None):
-        solver = dataclasses.replace(contact.solver, relative_tolerance=RELATIVE, absolute_tolerance=ABSOLUTE)
+    if contact is not None and getattr(integrator, "flight_step", None):
+        solver = solver or contact.solver
+        for name, value in (("relative_tolerance", RELATIVE), ("absolute_tolerance", ABSOLUTE)):
+            if method.solver is None or getattr(solver, name) == getattr(NewtonSolver, name):  # not stated
+                solver = dataclasses.replace(solver, **{name: value})
     return dataclasses.replace(
         method,
         mesh=mesh,

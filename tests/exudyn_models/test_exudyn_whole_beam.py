@@ -1,5 +1,7 @@
 """The whole impact by Exudyn: waves back from the ends, slaps of the tips, the last separation; two walls; rocking."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 from markdown_tables import lines_after, stated
@@ -12,6 +14,7 @@ from exudyn_models import ExudynModel
 from exudyn_models.contacts import penalty
 from exudyn_models.elements import GeometricallyExact
 from exudyn_models.integrators import Trapezoidal
+from exudyn_models.solvers import NewtonSolver
 
 PAGE = [  # κ/ν, η/T*, this path's number and the Hermite path's of the finest mesh
     (float(kappa), stated(damping)[0], stated(ours)[0], stated(theirs.split()[-1])[0])
@@ -120,3 +123,11 @@ def test_an_ensemble_has_penalties_from_a_quarter_of_the_usual_on_and_coarser_el
     assert 0.25 <= min(shares) < 0.5 < max(shares) <= 1.0
     usual = ExudynModel().for_whole_beam(impact).mesh.element_length
     assert all(usual < one.mesh.element_length < 3.0 * usual for one in drawn)
+
+
+def test_one_setting_of_the_solver_leaves_the_others_as_they_are_chosen() -> None:
+    beam = Impact.whole_beam(2.0, relative_damping=1e-2)
+    chosen = ExudynModel().for_whole_beam(beam).solver
+    for name, value in (("iterations", 50), ("relative_tolerance", 1e-4)):
+        stated = ExudynModel(solver=NewtonSolver(**{name: value})).for_whole_beam(beam).solver
+        assert stated == dataclasses.replace(chosen, **{name: value})
