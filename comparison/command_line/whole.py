@@ -84,7 +84,8 @@ def bounce(
     def text() -> str:
         tables = [one.text(verbose=verbose) for one in every]
         titled = tables if len(paths) == 1 else [f"{name}\n{table}\n" for name, table in zip(paths, tables)]
-        table = ["", hits_table(rows, OF_ONE_WALL)] if rows else []
+        of = [f"Hits, {paths[0]}"] if len(paths) > 1 else []
+        table = ["", *of, hits_table(rows, OF_ONE_WALL)] if rows else []
         return "\n".join([*titled, *table, *(f"warning: {line}" for line in fewer)])
 
     emit(document, as_json, text)
