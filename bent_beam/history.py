@@ -256,9 +256,10 @@ class ImpactHistory:
         return self.array(name) if name in self else np.zeros(self.time.size)
 
     def energy_budget(self, until: float | None = None) -> dict[str, float]:
-        """Where the energy went from the first saved instant to ``until``, s (the last unless given; straight between
-        two), J, and the ``defect`` of the sum."""
-        terms, end = {name: self.array(name) for name in ENERGIES if name in self}, until or self.time[-1]
+        """Where the energy went from the first saved instant to ``until``, s (default: the last instant; linear between
+        instants), J, and the ``defect`` of the sum."""
+        terms = {name: self.array(name) for name in ENERGIES if name in self}
+        end = self.time[-1] if until is None else until
         budget = {name: float(np.interp(end, self.time, values) - values[0]) for name, values in terms.items()}
         defect = sum(-value if name == "work_of_loads" else value for name, value in budget.items())
         initial = float(self.array("kinetic_energy")[0] + self.array("strain_energy")[0])

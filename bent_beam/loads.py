@@ -63,7 +63,7 @@ __all__ = [
 Array = NDArray[np.float64]
 Powers = tuple[int, int]
 UNSHEARED = ': [beam] model = "euler_bernoulli" leaves shear out'
-SIMULATED = ": bentbeam simulate and bounce follow it, on the Hermite and the Exudyn path"
+SIMULATED = ": bentbeam simulate follows it, on the Hermite and the Exudyn path"
 
 
 @dataclass(frozen=True)

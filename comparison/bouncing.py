@@ -92,12 +92,12 @@ def bounce(
     for name, value in (("runs", runs), ("seed", seed)):
         if value is not None and not ensemble:
             raise InputError(
-                f"{name} has no effect where there is no ensemble, of a beam without damping (got {value!r})"
+                f"{name} has no effect: only a beam whose damping is stated as 0 has an ensemble (got {value!r})"
             )
     how: dict[str, Any] = {"store": store, "jobs": jobs}
     if not case.damping_stated and not (impact.damping or impact.hysteretic_loss):
         return _over_ratios(case, method, progress or (lambda _: None), how | {"save": save})
-    band = (runs or RUNS, SEED if seed is None else seed) if ensemble else None
+    band = (RUNS if runs is None else runs, SEED if seed is None else seed) if ensemble else None
     question = Question(impact, method, save=save, band=band)
     made = runs_of(question, whole_reading, progress=progress, **how)
     return Bounce(case, whole_numbers(made), made)
@@ -118,6 +118,8 @@ def whole_numbers(made: Runs) -> dict[str, Number | Band]:
     reading = made.run.reading
     names = NUMBERS if reading["peak_force"] is None else (*NUMBERS, "peak_force")
     known = {name: {"saved_instants": reading["within"]} for name in TIMES}
+    if made.question.impact.wall_stiffness is not None:  # the last push alone is late by more than half of it
+        known["peak_moment_time"]["saved_instants"] *= 0.5
     known |= {name: {"saved_instants": change} for name, change in reading["drift"].items()}
     known["push"] = {"saved_instants": reading["push_rise"]}
     known["last_contact"]["contacts"] = _shifted(made)
@@ -152,8 +154,8 @@ def _may_return(made: Runs, restitution: Number) -> float:
 
 
 def follow_hits(impact: Impact, method: Method, count: int, *, first: ImpactHistory) -> list[Hit]:
-    """The first ``count`` hits of a beam on its wall by one run, fewer where it does not come back or comes to rest: a
-    hit that is not over within :data:`RESTS` periods of the lowest mode.
+    """The first ``count`` hits of a beam on its wall by one run, fewer where it is not back within :data:`LONGEST` T*
+    or comes to rest: a hit that is not over within :data:`RESTS` periods of the lowest mode.
 
     first : the run that a first hit has been read from: the first row is its own.
     Raises ``ValueError`` for what the method refuses, and between two walls.

@@ -30,10 +30,10 @@ PATHS = ("hermite", "exudyn")  # that are compared where none is named
 def check_effect(assignments: Iterable[str], names: Sequence[str], unused: Mapping[str, str], option: str) -> None:
     """``InputError`` for an assignment to a path that is not among ``names``, or to a table ``unused`` for a reason:
     what a case file may hold beside others is a mistake where it is asked for."""
-    other = f"asked for is {', '.join(names)}" if names else "nothing is simulated"
+    other = f"the path is {' and '.join(names)}" if names else "nothing is simulated"
     reasons = dict.fromkeys({*paths()} - {*names}, other) | dict(unused)
     for assignment in assignments:
-        if (table := assignment.partition(".")[0].strip()) in reasons:
+        if (table := assignment.partition("=")[0].partition(".")[0].strip()) in reasons:
             raise InputError(f"{option} {shortened(assignment)} has no effect: {reasons[table]}; leave it out")
 
 

@@ -177,8 +177,8 @@ def hits_table(rows: Sequence[Mapping[str, Any]], names: Sequence[str]) -> str:
     cells = [[row[name] if isinstance(row[name], str) else f"{row[name]:.4g}" for name in names] for row in rows]
     head = ["hit", *(HIT[name] for name in names)]
     table = text_table(head, [[str(number), *line] for number, line in enumerate(cells, 1)])
-    both = " Where two overlap, velocities and energies are\nthose of both." if "wall" in names else ""
+    both = " Where two overlap, velocities and energies are\nthose of both together." if "wall" in names else ""
     return (
-        f"{table}\nHits are read from the saved instants of one run and have no error bars: from the second on their "
-        f"second\ndigit may be open.{both}"
+        f"{table}\nHits are read from the saved instants of one run and have no error bars. Of all but the first, the "
+        f"second digit\nis uncertain.{both}"
     )

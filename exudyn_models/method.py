@@ -32,7 +32,7 @@ from exudyn_models.geometry import GEOMETRIES, Array, Geometry, supports_or_plat
 from exudyn_models.integrators import INTEGRATORS, Implicit, Integrator
 from exudyn_models.recording import Recorder
 from exudyn_models.resolution import chosen_mesh, chosen_steps, thin_front
-from exudyn_models.solvers import SOLVERS, NewtonSolver, quiet
+from exudyn_models.solvers import SOLVERS, NewtonSolver, filled, quiet
 from exudyn_models.stepping import Stepping, Until, saved_times
 from exudyn_models.warnings_of_run import warnings_of_run
 
@@ -118,7 +118,7 @@ class ExudynModel(Part):
             integrator=integrator,
             contact=contact,
             geometry=self.geometry or contact.geometry,
-            solver=self.solver or contact.solver,
+            solver=filled(self.solver, contact.solver),
             full_beam=self.full_beam or impact.off_centre,
             plastic=min(self.refine, 1.0),
             mesh_given=self.mesh is not None,
@@ -166,12 +166,13 @@ class ExudynModel(Part):
 
     def _unused_of_solver(self, contact: Contact) -> Iterator[str]:
         """Of settings for what this run does not do: Newton's iterations, or repetitions of a step."""
-        explicit, rigid = (self.integrator or contact.integrator).explicit, isinstance(contact, Rigid)
+        integrator = self.integrator or contact.integrator
+        explicit, rigid = integrator.explicit, isinstance(contact, Rigid)
         if self.solver is None or not (explicit or rigid):
             return
         for name, value in vars(self.solver).items():
             if value != getattr(NewtonSolver, name) and (explicit or name.startswith("contact_")):
-                other = f"exudyn.integrator.kind {type(self.integrator).__name__}" if explicit else "contact.kind rigid"
+                other = f"{type(integrator).__name__}, which is explicit" if explicit else "exudyn.contact.kind rigid"
                 yield f"exudyn.solver.{name} has no effect with {other}: leave it out (got {value!r})"
 
     def simulate(

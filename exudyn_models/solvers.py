@@ -11,14 +11,14 @@ import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, Any, ClassVar
 
 import exudyn as exu
 
 from bent_beam.fields import Part, Quantity
 
-__all__ = ["SOLVERS", "NewtonSolver", "open_viewer", "quiet", "wait_until_closed"]
+__all__ = ["SOLVERS", "NewtonSolver", "filled", "open_viewer", "quiet", "wait_until_closed"]
 
 BLUE = [0.12, 0.35, 0.67, 1.0]
 
@@ -72,6 +72,12 @@ class NewtonSolver(Part):
         time.discontinuous.maxIterations = self.contact_iterations
         time.discontinuous.iterationTolerance = max(self.contact_tolerance * amplitude, 10.0 * round_off)
         return settings
+
+
+def filled(stated: NewtonSolver | None, chosen: NewtonSolver) -> NewtonSolver:
+    """``chosen`` with what ``stated`` has otherwise than by default."""
+    own = {n: v for n, v in vars(stated).items() if v != getattr(NewtonSolver, n)} if stated else {}
+    return replace(chosen, **own)
 
 
 SOLVERS: dict[str, type] = {"newton": NewtonSolver}

@@ -30,7 +30,7 @@ from exudyn_models.elements import chosen_element
 from exudyn_models.geometry import supports_or_plate
 from exudyn_models.integrators import Implicit, Trapezoidal
 from exudyn_models.resolution import STEP, near_buckling, resolving_step, shortest_element, step_of_wall
-from exudyn_models.solvers import NewtonSolver
+from exudyn_models.solvers import filled
 
 __all__ = ["cross_checks", "for_whole_beam", "varied"]
 
@@ -78,10 +78,8 @@ def for_whole_beam(method: M, impact: Impact) -> M:
         contact = ON_PLATE if plate else _softer(UNHELD, slower**-2) if softer else UNHELD
     solver = method.solver
     if contact is not None and getattr(integrator, "flight_step", None):
-        solver = solver or contact.solver
-        for name, value in (("relative_tolerance", RELATIVE), ("absolute_tolerance", ABSOLUTE)):
-            if method.solver is None or getattr(solver, name) == getattr(NewtonSolver, name):  # not stated
-                solver = dataclasses.replace(solver, **{name: value})
+        of_flight = dataclasses.replace(contact.solver, relative_tolerance=RELATIVE, absolute_tolerance=ABSOLUTE)
+        solver = filled(solver, of_flight)
     return dataclasses.replace(
         method,
         mesh=mesh,

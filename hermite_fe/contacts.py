@@ -82,7 +82,7 @@ class Contact(Part, ABC):
         return ContactLaw(self.restitution, self.hold, self.hold_until, hold_ends)
 
     def checked_law(self, rows: ContactRows, hold_ends: float) -> ContactLaw:
-        """:meth:`law`, which may be somebody else's; ``ValueError`` where it is none, or may have no such strength."""
+        """:meth:`law`, which may be somebody else's; ``ValueError`` where it is none of these rows and this class."""
         law, name = self.law(rows, hold_ends), f"contact: {type(self).__name__}"
         if not isinstance(law, ContactLaw):
             raise InputError(f"{name}.law must return a ContactLaw (got {law!r})")

@@ -92,11 +92,11 @@ class Stepper:
                 "integrator.kind: contact that may pull needs moreau_jean, or signorini_position with theta = 1 "
                 f"(got {kind})"
             )
-        for name in ("restitution", "hold", "hold_until") if np.any(law.strength) else ():
-            if value := getattr(law, name):
-                raise InputError(
-                    f"contact that may pull neither rebounds nor is held: {name} must be 0 (got {value!r})"
-                )
+        if np.any(law.strength):
+            for name in ("restitution", "hold", "hold_until"):
+                if value := getattr(law, name):
+                    what = "contact that may pull neither rebounds nor is held"
+                    raise InputError(f"{what}: {name} must be 0 (got {value!r})")
         for name, value in (("q", q), ("v", v)):
             if np.shape(value) != (system.dofs,):
                 raise InputError(f"{name} must have shape ({system.dofs},) (got {np.shape(value)})")

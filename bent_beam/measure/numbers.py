@@ -165,8 +165,8 @@ def _with_bar(value: float, error: float) -> str:
     to 0.01 would take a third of it."""
     if error <= 0.0:
         return f"{value:.6g} ± {error:.1g}"
-    significant = 2 if f"{error:.1e}".startswith("1") else 1
-    error = float(f"{error:.{significant}g}")
+    error = float(f"{error:.{1 + f'{error:.1e}'.startswith('1')}g}")
+    significant = 1 + f"{error:.1e}".startswith("1")  # 0.096 has become 0.1
     power = math.floor(math.log10(max(abs(value), error)))
     if not SMALL <= 10.0**power < LARGE:
         return f"({_with_bar(value / 10.0**power, error / 10.0**power)})e{power:+03d}"

@@ -11,7 +11,7 @@ contact, where the run goes on so long.
 
 A separation is a time of at least :data:`SHORTEST_SEPARATION` T* without a push: without a smallest duration there is
 no such number (the reaction of a beam that is stopped at a point changes sign arbitrarily fast). :func:`hits` lists all
-hits; each is of one wall, and ends where the other one is hit.
+hits; each is of one wall, and goes on while the other wall pushes, too.
 """
 
 from __future__ import annotations
@@ -45,8 +45,8 @@ class WholeImpact:
 
     restitution : ``None`` where the beam has not left: loads keep it on the wall, or the run ends too early.
     within : ``last_contact`` is the middle between two saved instants, and known within half of their distance; within
-        all of it where a wall gives way, whose last push is nothing. drift : how much restitution and shares of the
-        energy change in that.
+        all of it where a wall gives way, whose push falls to zero gradually. drift : how much restitution and shares of
+        the energy change in that.
     until : end of the span that the largest moment and force are of.
     contacts : begin and end of each contact, separations shorter than the shortest ignored; the last ends at the last
         contact. returns : when the beam is nearest to the wall again, within a period after the last contact, and the
@@ -101,7 +101,7 @@ def pushes(time: Array, impulse: Array, shortest: float) -> list[tuple[int, int]
     if pushed.size == 0:
         return []
     off = time[pushed[1:]] - time[pushed[:-1] + 1]
-    apart = np.flatnonzero((np.diff(pushed) > 1) & (off >= shortest * (1.0 - 1e-9)))
+    apart = np.flatnonzero((off > 0.0) & (off >= shortest * (1.0 - 1e-9)))
     begin = np.concatenate([pushed[:1], pushed[apart + 1]])
     end = np.concatenate([pushed[apart], pushed[-1:]]) + 1
     return [(int(i), int(k)) for i, k in zip(begin, end)]
@@ -138,16 +138,17 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
     arrives = abs(before) > 1e-6 * speed  # a beam that only turns has no restitution
 
     def at(instant: float) -> dict[str, float]:
-        after, (kept, given) = _velocity(history, end, instant), (np.interp(instant, time, v) for v in (energy, work))
+        kept, given = (float(np.interp(instant, time, values)) for values in (energy, work))
+        after = _velocity(history, end, instant)
         translation = 0.5 * mass * after**2 / given
         shares = (translation, kept / given - translation, 1.0 - kept / given)
-        return {"restitution": -after / before if arrives else 0.0} | dict(zip(SHARES, map(float, shares)))
+        return {"restitution": -after / before if arrives else 0.0} | dict(zip(SHARES, shares))
 
     found, begins, ends = (at(instant) for instant in (last, float(time[end - 1]), float(time[end])))
-    part, gone = 0.5 if impact.wall_stiffness is None else 1.0, arrives and (left or len(contacts) > len(hit))
-    restitution = found["restitution"] if gone else None
+    part = 0.5 if impact.wall_stiffness is None else 1.0
+    gone = arrives and (left or len(contacts) > len(hit))
     return WholeImpact(
-        restitution=restitution,
+        restitution=found["restitution"] if gone else None,
         **{name: found[name] for name in SHARES},
         impulse=2.0 * impulse,
         last_contact=last / unit,

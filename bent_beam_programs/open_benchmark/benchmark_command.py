@@ -64,7 +64,7 @@ def benchmark(
 
     if install:
         if solver or problem or adapter or result or seed is not None:
-            raise InputError("--install stops when it is done: leave the options of a run out")
+            raise InputError("--install runs nothing: leave --solver, --problem, --adapter, --result and --seed out")
         lines = [install_environment(one) for one in chosen_adapters(install)]
         emit({"installed": lines}, as_json, lambda: "\n".join(lines))
         return 0

@@ -42,8 +42,8 @@ def problem(
 
     asked = problem_of(name)
     text = json.dumps(document(asked), indent=1) if out and out.suffix == ".json" else problem_text(asked)
+    check_out(out, overwrite)
     if out is None:
         print(text)
         return
-    check_out(out, overwrite)
     write_atomically(out, text)

@@ -172,9 +172,9 @@ def _of_numbers(found: Score) -> list[Symptom]:
         number, about = found.measured[name], found.reference.get(name)
         limit = FIRST_ORDER if name in LOADED else PART
         size = number.relative(1.0 if name in LOADED else 0.0) if kind == "error" else found.bar(name)
-        exact = "" if number.theory is None else f", {'reference' if about else 'exact'} {number.theory:.6g}"
-        bar = f" ± {about['error']:.1g}" if about else ""
-        shown.append(Symptom(f"{kind}_{name}", size, limit, f"{number}{exact}{bar}", f"{kind} of {name}"))
+        reference = Number(number.theory, about["error"] if about else None)
+        exact = "" if number.theory is None else f", {'reference' if about else 'exact'} {reference}"
+        shown.append(Symptom(f"{kind}_{name}", size, limit, f"{number}{exact}", f"{kind} of {name}"))
     return shown
 
 

@@ -67,7 +67,7 @@ def _text(found: Score) -> str:
     for name, value in found.measured.items():
         exact = "" if value.theory is None else f", exact {value.theory:.8g}"
         if name in found.reference:
-            exact = f", reference {value.theory:.6g} ± {found.reference[name]['error']:.1g}"
+            exact = f", reference {type(value)(value.theory, found.reference[name]['error'])}"
         error, bar = found.error(name), found.bar(name)
         about = "" if error is None else f" ({100 * error:+.3f}{'' if bar is None else f' ± {100 * bar:.2g}'} %)"
         lines.append(f"{name:>18} = {value}{exact}{about}")

@@ -60,7 +60,7 @@ def study(
         raise InputError(f"study {name!r} is not known{nearest(name, STUDIES)}")
     if case is None:
         raise InputError("a case file is required: bentbeam study NAME CASE.toml")
-    of_paths = [one for one in assignments or () if one.partition(".")[0].strip() in paths()]
+    of_paths = [one for one in assignments or () if one.partition("=")[0].partition(".")[0].strip() in paths()]
     loaded = load_case(case, assignments or ())
     asked = path or of_paths or methods or refine is not None
     if not asked:

@@ -72,8 +72,10 @@ def bounce(
         document["paths"] = [{"path": name, **one.to_dict()} for name, one in zip(paths, every)]
     if hits > 1:
         document["hits"] = rows
-    few = f"{len(rows)} of {hits} hits: after that the beam does not come back, or comes to rest on its wall"
-    fewer = [few] if len(rows) < hits > 1 else []
+    fewer = []
+    if hits > 1 and len(rows) < hits:
+        longest = 1e3 * bouncing.LONGEST * found.impact.slow_time_scale
+        fewer = [f"{len(rows)} of {hits} hits: then the beam rests on its wall, or is not back by {longest:.3g} ms"]
     document["warnings"] += fewer
     if out is not None:
         try:
@@ -106,7 +108,7 @@ def _asked(
         if damping is not None:
             raise InputError(f"--damping {damping!r} goes with --kappa-over-nu; in a case set beam.damping (s)")
         loaded = load_case(case, assignments)
-        check_effect(assignments, paths, {"run": "the last separation ends it"}, "--set")
+        check_effect(assignments, paths, {"run": "a whole impact ends with the last separation"}, "--set")
         return [(loaded, method) for method in methods_of(paths, (), loaded)]
     if damping is None:
         raise InputError("--damping is required next to --kappa-over-nu (eta/T*; 0 for none)")

@@ -17,7 +17,6 @@ import exudyn.itemInterface as items
 import numpy as np
 
 from bent_beam import Impact
-from bent_beam.errors import InputError
 from bent_beam.fields import Quantity
 from bent_beam.loads import UNSHEARED
 from exudyn_models.contacts.base import Contact, ContactRun, Wall
@@ -109,12 +108,6 @@ class SegmentFriction(Contact):
         float, Quantity("", "tangential force per sliding velocity below Coulomb's limit, in √(EIμ)/Δx²", above=0.0)
     ] = 1.0
 
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        given = self.relative_friction_damping
-        if not self.friction and given != type(self).relative_friction_damping:
-            raise InputError(f"{self.where}.relative_friction_damping has no effect without friction (got {given!r})")
-
     def refuses(self, impact: Impact, element: Element, integrator: Integrator) -> str | None:
         reason = None
         if impact.opposite_wall is not None:
@@ -129,6 +122,9 @@ class SegmentFriction(Contact):
             reason = f"works on ANCF cables only: take exudyn.element.kind ancf_cable (got {type(element).__name__})"
         elif integrator.explicit:
             reason = f"needs an implicit exudyn.integrator (got {type(integrator).__name__})"
+        elif not self.friction and self.relative_friction_damping != type(self).relative_friction_damping:
+            damping = self.relative_friction_damping
+            reason = f"without friction: relative_friction_damping has no effect, leave it out (got {damping!r})"
         return None if reason is None else f"exudyn.contact.kind segment_friction {reason}"
 
     def wall_share(self, geometry: Geometry) -> float:

@@ -31,6 +31,8 @@ def test_a_history_is_read_back_equal_and_its_budget_adds_up(tmp_path):
     budget = again.energy_budget()
     assert budget["defect"] == pytest.approx(0.0) and budget["initial_energy"] == 5.0
     assert (budget["kinetic_energy"], budget["loss_impact"]) == (-2.0, 1.0)  # from the first to the last instant
+    half = again.energy_budget(until=0.4)  # straight between instants
+    assert (half["kinetic_energy"], half["loss_impact"]) == pytest.approx((-0.4, 0.2))
     assert small(strain_energy=np.array([1.0, 1.5, 2.0])).energy_budget()["initial_energy"] == 6.0
     assert json.dumps(budget, allow_nan=False)
     one = history_of([0.0], [0.0, 1.0])  # a single instant will do

@@ -71,14 +71,19 @@ def test_a_match_whose_rows_are_all_refused_is_bad_input_and_still_a_document(ca
         (["gallery", "fig-9.9"], "fig-9.9"),
         (["frobnicate"], "frobnicate"),
         # what would have no effect
-        (["simulate", K10, "--set", "exudyn.refine=2"], "'exudyn.refine=2' has no effect: asked for is hermite"),
+        (["simulate", K10, "--set", "exudyn.refine=2"], "'exudyn.refine=2' has no effect: the path is hermite"),
+        (["simulate", K10, "--set", "exudyn={refine=2.0}"], "has no effect: the path is hermite"),
+        (["problem", "leading-0.5", "--overwrite"], "without --out"),
         (["simulate", K10, "--until", "separation", "--set", "run.end_time=1"], "--until separation says how long"),
         (["simulate", K10, "--overwrite"], "without --out"),
-        (["bounce", K10, "--set", "self_similar.refine=2"], "asked for is hermite"),
-        (["bounce", K10, "--path", "exudyn", "--set", "run.duration=1"], "the last separation ends it"),
+        (["bounce", K10, "--set", "self_similar.refine=2"], "the path is hermite"),
+        (
+            ["bounce", K10, "--path", "exudyn", "--set", "run.duration=1"],
+            "a whole impact ends with the last separation",
+        ),
         (["bounce", "--kappa-over-nu", "2", "--damping", "0.1", "--seed", "0"], "seed has no effect"),
         (["bounce", K10, "--runs", "3"], "runs has no effect"),
-        (["sweep", K10, "--vary", "exudyn.refine=1,2"], "vary: 'exudyn.refine' has no effect: asked for"),
+        (["sweep", K10, "--vary", "exudyn.refine=1,2"], "vary: 'exudyn.refine' has no effect: the path is hermite"),
         (["sweep", K10, "--vary", "run.end_time=1,2"], "the last separation ends a row"),
         (["sweep", K10, "--vary", "impact.velocity=1,2", "--set", "impact.velocity=3"], "says the same in every row"),
         (
@@ -99,7 +104,7 @@ def test_a_match_whose_rows_are_all_refused_is_bad_input_and_still_a_document(ca
         (["study", "list", K10], "study list takes --json alone"),
         (["study", "contact-point", K10, "--set", "mesh.kind=uniform", "--set", "mesh.element_length=1"], "their own"),
         (["gallery", "--list", "fig-3.9"], "--list lists all"),
-        (["benchmark", "--install", "scikit-fem", "--seed", "1"], "--install stops when it is done"),
+        (["benchmark", "--install", "scikit-fem", "--seed", "1"], "--install runs nothing"),
     ],
 )
 def test_bad_input_is_one_line_and_exit_2(arguments, message):

@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
-from histories import pushed_until
+from histories import history_of, pushed_until
 
 from bent_beam import Impact
 from bent_beam.measure.numbers import FACTOR, Band, Number
@@ -131,6 +131,27 @@ def test_hits_are_followed_until_so_many_are_over_or_the_beam_does_not_come_back
     found = follow_hits(falling, Falling(), 2, first=first)  # type: ignore[arg-type]
     assert [hit.begin for hit in found] == pytest.approx([0.0, 5.0], abs=0.05)
     assert len(follow_hits(problem(2.0, 1e-3), Falling(), 2, first=first)) == 1  # type: ignore[arg-type]
+
+
+class Resting(Falling):
+    """It lies on the wall from 5 T* on."""
+
+    longest = 0.0
+
+    def simulate(self, impact, *, end_time, save):
+        run = pushed_until(0.5, last=end_time)
+        weight = np.maximum(0.0, run.time - 5.0)
+        impulse = run.array("impulse") + 0.1 * np.outer(weight, np.ones(run.positions(0).size))
+        Resting.longest = max(Resting.longest, end_time)
+        return history_of(
+            run.time, run.positions(0), impact=run.impact, impulse=impulse, total_impulse=2.0 * impulse.sum(axis=1)
+        )
+
+
+def test_a_hit_that_does_not_end_is_not_followed_for_ever() -> None:
+    falling = problem(2.0, 1e-3).replace(acceleration=0.5)
+    found = follow_hits(falling, Resting(), 4, first=pushed_until(0.5))  # type: ignore[arg-type]
+    assert [hit.begin for hit in found] == [0.0] and Resting.longest < 50.0
 
 
 def test_few_saved_instants_hold_the_time_that_is_asked_for() -> None:

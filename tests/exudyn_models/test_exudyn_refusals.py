@@ -67,7 +67,7 @@ REFUSED = [
     (lambda: table("mesh", element_length=0.1), r"mesh\.kind is required"),
     (lambda: Penalty(stiffness=1.0, relative_stiffness=1.0), "exclude each other"),
     (lambda: RK44(time_step=1e-3, safety=0.5), "safety has no effect next to time_step"),
-    (lambda: SegmentFriction(relative_friction_damping=2.0), "has no effect without friction"),
+    (lambda: asked(SHORT, contact=SegmentFriction(relative_friction_damping=2.0)), "friction_damping has no effect"),
     (lambda: asked(WHOLE, integrator=RK44(), solver=NewtonSolver(iterations=9)), "solver.iterations has no effect"),
     (lambda: asked(WHOLE, contact=Rigid(), solver=NewtonSolver(contact_iterations=9)), "contact_iterations has no"),
     # what a part cannot model

@@ -11,7 +11,7 @@ from bent_beam import Impact
 from bent_beam.free_flight import acting
 from bent_beam.meshes import UniformMesh
 from exudyn_models import ExudynModel
-from exudyn_models.contacts import penalty
+from exudyn_models.contacts import SegmentFriction, penalty
 from exudyn_models.elements import GeometricallyExact
 from exudyn_models.integrators import Trapezoidal
 from exudyn_models.solvers import NewtonSolver
@@ -127,7 +127,10 @@ def test_an_ensemble_has_penalties_from_a_quarter_of_the_usual_on_and_coarser_el
 
 def test_one_setting_of_the_solver_leaves_the_others_as_they_are_chosen() -> None:
     beam = Impact.whole_beam(2.0, relative_damping=1e-2)
-    chosen = ExudynModel().for_whole_beam(beam).solver
     for name, value in (("iterations", 50), ("relative_tolerance", 1e-4)):
-        stated = ExudynModel(solver=NewtonSolver(**{name: value})).for_whole_beam(beam).solver
-        assert stated == dataclasses.replace(chosen, **{name: value})
+        stated = NewtonSolver(**{name: value})
+        for contact, impact in ((None, beam), (SegmentFriction(), beam), (None, beam.replace(wall_stiffness=1e4))):
+            free, held = ExudynModel(contact=contact), ExudynModel(contact=contact, solver=stated)
+            for method, other in ((free, held), (free.for_whole_beam(impact), held.for_whole_beam(impact))):
+                chosen, found = (one.chosen(impact, 0.1).solver for one in (method, other))
+                assert found == dataclasses.replace(chosen, **{name: value})

@@ -69,6 +69,17 @@ def test_part_of_a_long_beam_an_expanding_mesh_and_a_beam_under_tension_keep_the
     assert balance_of(method.simulate(bent, end_time=0.005, save=20)).momentum is None
 
 
+def test_a_bend_that_nothing_holds_later_is_let_go_on_both_paths() -> None:
+    """q₀ = 1: the wall's impulse at 0.1, 0.3 and 0.5 T*."""
+    bent = Impact.whole_beam(2.0, relative_damping=1e-2).replace(fourth_derivative=1.0)
+    given = []
+    for path in ("hermite", "exudyn"):
+        method = dataclasses.replace(method_from_tables(path, {}), mesh=UniformMesh(1.0 / 40))
+        history = for_whole_beam(method, bent).simulate(bent, end_time=0.5, save=100)
+        given.append(np.interp([0.1, 0.3, 0.5], history.time, history.array("total_impulse")))
+    assert given[1] == pytest.approx(given[0], rel=0.01)
+
+
 @pytest.mark.parametrize("path", ["hermite", "exudyn"])
 def test_tension_along_the_axis_moves_no_centre_of_mass_and_the_largest_moment_is_that_of_all_steps(path):
     """Forces along the bow's ends take −NKL t; forces along x take nothing: the wall gives all that the beam gains."""

@@ -16,6 +16,7 @@ from bent_beam.measure.numbers import Band, Number, number_of
         (Number(12345.0, 210.0), "12300 ± 200"),
         (Number(0.149, 0.0149), "0.149 ± 0.015"),
         (Number(0.5, 0.0196), "0.50 ± 0.02"),
+        (Number(0.2, 0.096), "0.20 ± 0.10"),
         (Number(3.25, 0.0), "3.25"),
         (Number(math.nan, 0.1), "-"),
         (Number(2e-4, 1e-5), "0.000200 ± 0.000010"),

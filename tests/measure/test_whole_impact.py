@@ -183,6 +183,15 @@ def test_what_a_moment_may_have_been_at_first_is_a_share_of_that_of_a_stopped_po
         assert whole_impact(found).moment_left_out == pytest.approx(0.7)
 
 
+def test_the_largest_moment_off_the_middle_is_on_its_side() -> None:
+    found = []
+    for touch in (0.3, -0.3):
+        impact = Impact.whole_beam(0.5, relative_damping=1e-2).replace(first_touch=touch)
+        method = HermiteFE(mesh=UniformMesh(1.0 / 20)).for_whole_beam(impact)
+        found.append(whole_impact(method.simulate(impact, end_time=0.1, save=100)).peak_moment_place)
+    assert found[0] == pytest.approx(-found[1]) and found[0] > 0.1
+
+
 def test_a_beam_that_has_left_does_not_return_and_one_that_swings_as_wide_as_it_is_away_may() -> None:
     impact, method = Impact.whole_beam(0.5, relative_damping=1e-2), HermiteFE(mesh=UniformMesh(1.0 / 25))
     history = method.simulate_to_separation(impact)

@@ -15,7 +15,8 @@ const Draw = (() => {
   /** Both to the first digit of the error, to the second after a 1, as Python (bent_beam/measure/numbers.py). */
   function bar(value, error) {
     if (!(error > 0)) return `${text(value, 6)} ± ${text(error, 1)}`;
-    const more = error.toExponential(1).startsWith("1") ? 1 : 0, first = Number(error.toExponential(more));
+    const starts1 = (size) => (size.toExponential(1).startsWith("1") ? 1 : 0);
+    const first = Number(error.toExponential(starts1(error))), more = starts1(first);  // 0.096 becomes 0.10
     const power = Math.floor(Math.log10(Math.max(Math.abs(value), first)));
     const digits = more - Math.floor(Math.log10(first));
     if (power >= 6 || power < -4)
