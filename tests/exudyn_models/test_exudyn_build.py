@@ -14,6 +14,7 @@ from bent_beam.meshes import UniformMesh
 from bent_beam.method import method_from_tables
 from exudyn_models import CONTACTS, ELEMENTS, INTEGRATORS, ExudynModel
 from exudyn_models.contacts import Penalty
+from exudyn_models.elements import GeometricallyExact
 from exudyn_models.integrators import GeneralizedAlpha, Newmark
 from theory import contact_parameters
 
@@ -47,6 +48,13 @@ def test_the_ends_bear_moment_and_shear_of_a_bend_in_si_units():
     loads = (model.mbs.GetLoad(n) for n in range(model.mbs.systemData.NumberOfLoads()))
     found = [load["load"] / model.scale for load in loads if load["loadType"] == "Coordinate"]
     assert found == pytest.approx([2.1e3 * 0.01 * 1.5**2 / 2.0, -2.1e3 * 0.01 * 1.5])
+
+
+def test_sections_turn_at_first_as_the_rate_of_curvature_has_it_in_si_units():
+    sheared = STEEL.replace(shear_stiffness=1e6, rotary_inertia=1e-3, curvature_rate=0.5)
+    model = exudyn_models.build(sheared, mesh=MESH, element=GeometricallyExact())
+    turning = model.mbs.GetNode(model.nodes[-1])["initialVelocities"][2] / model.scale
+    assert abs(turning) == pytest.approx(0.5 * 1.5, rel=1e-6)
 
 
 def test_elements_are_equal_in_the_zone_and_longer_ahead_of_it():

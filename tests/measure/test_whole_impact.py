@@ -162,7 +162,9 @@ def test_in_other_units_an_impact_is_the_same_and_what_springs_of_the_wall_hold_
     for pairs in ("contacts", "returns"):
         assert one[pairs] and np.ravel(same.pop(pairs)) == pytest.approx(np.ravel(one.pop(pairs)))
     same["push_time"] = one["push_time"]  # a steady force is largest anywhere
-    assert same.pop("drift") == pytest.approx(one.pop("drift"))
+    drift, within = one.pop("drift"), one["within"]
+    assert same.pop("drift") == pytest.approx(drift)
+    assert drift["dissipated"] == pytest.approx(0.05 * within) and drift["restitution"] == 0.0  # what springs take up
     assert same == pytest.approx(one | {"supplied": 6.0 * one["supplied"]})
     for hit, alike in zip(hits(run), hits(other), strict=True):
         numbers = np.array(dataclasses.astuple(hit)[1:])

@@ -9,6 +9,7 @@ from bent_beam.measure.moments import first_front, moments
 from self_similar_fe import ExpandingMesh, SelfSimilarFE
 from self_similar_fe.run import simulate_expanding
 from self_similar_fe.similarity import similarity
+from theory import contact_parameters
 
 EXACT = {  # κ/ν: λ₀, r₀
     1 / 1600: (56.5684099145, 35.4490354773),
@@ -83,6 +84,13 @@ def test_impulse_and_energies_grow_like_the_root_of_the_time_and_far_ahead_the_b
     for k in (0, 20, -1):
         x, gap = half.positions(k)[-1], half.array("gap", k)[-1]
         assert gap == pytest.approx(0.25 * x**2 - half.time[k], rel=1e-6)
+
+
+def test_the_moment_of_the_impulse_is_half_of_it_times_the_front_from_the_start_on(half):
+    """2ρ√τ and ρλ₀τ of one side."""
+    impulse = half.array("total_impulse")[1:] / 2.0
+    front = contact_parameters(0.5).lambda0 * np.sqrt(half.time[1:])
+    assert half.array("impulse_moment")[1:] == pytest.approx(0.5 * impulse * front, rel=2e-3)
 
 
 def test_a_curved_wall_takes_its_curvature_from_the_beams_and_the_method_runs_its_mesh(half):

@@ -62,6 +62,8 @@ def test_shear_and_damping_turn_one_point_s_series_over_without_a_jump() -> None
     for damping in (0.0, 0.5):
         before, after = (first_instants(3.0, solved, 0.2, t, damping) for t in (499.9, 500.1))
         assert after == pytest.approx(before, rel=1e-3)
+    before, after = (first_instants(3.0, solved, 0.1, 500.0 * (1.0 + past)) for past in (0.0, 1e-9))
+    assert after == pytest.approx(before, rel=1e-5)
     for time in (0.1, 0.3, 2.0, 400.0, 600.0):  # the least damping is as good as none
         assert first_instants(3.0, solved, 0.2, time, 1e-9) == pytest.approx(first_instants(3.0, solved, 0.2, time))
     turn = early_until(3.0)
