@@ -110,6 +110,8 @@ def test_of_two_runs_of_the_whole_beam_both_halves_are_compared_and_drawn() -> N
     assert compare_histories(*runs)["largest_difference"]["gap"] == pytest.approx(2.0)
     mirrored = [history_of(time, x, symmetry="full", gap=np.outer(time, np.minimum(0.0, s * x))) for s in (0.0, 1.0)]
     assert compare_histories(*mirrored)["largest_difference"]["gap"] == pytest.approx(1.0)  # apart on the left alone
+    small = [history_of(time, x, symmetry="full", total_impulse=share * time) for share in (1e-3, 2e-3)]
+    assert compare_histories(*small)["largest_difference"]["total_impulse"] == pytest.approx(1.0)
     edges = np.linspace(-1.0, 1.0, 5) / runs[0].impact.length_scale
     pushed = force_map(runs[0], np.array([0, 2]), edges)[0]
     assert pushed[0] == pytest.approx(pushed[-1]) and pushed[0] > 0.0
