@@ -87,7 +87,7 @@ def has_left(history: ImpactHistory) -> bool:
         energy = float(history.array("kinetic_energy")[-1] + history.array("strain_energy")[-1])
         return history.positions(-1), history.array("gap", -1), history.array("velocity", -1), energy
 
-    quiet = history.time[-1] - history.time[pushed[-1] + 1] if pushed.size else 0.0
+    quiet = history.time[-1] - history.time[pushed[-1]] if pushed.size else 0.0  # the run itself knows the step
     return pushed.size > 0 and _is_off(history.impact, float(quiet), last)
 
 

@@ -158,6 +158,12 @@ def _check_arrangement(impact: Impact) -> None:
             f"wall_curvature must be less than the beam's curvature {impact.curvature!r}, or no point touches first "
             f"(got {impact.wall_curvature!r})"
         )
+    if impact.opposite_wall is not None:  # behind the bow K s²/2 − q₀ s⁴/24 at the start
+        s, bend = max(abs(place - impact.first_touch) for place in impact.wall_span), impact.fourth_derivative
+        s = min(s, math.sqrt(6.0 * max(impact.curvature, 0.0) / bend)) if bend > 0.0 else s
+        bow, room = 0.5 * impact.curvature * s**2 - bend * s**4 / 24.0, impact.opposite_wall
+        if bow > room * (1.0 + 1e-9):
+            raise InputError(f"opposite_wall must leave room for the bow of {bow:.6g} m behind its apex (got {room!r})")
     for name in ("wall_from", "wall_to"):
         place = getattr(impact, name)
         if place is not None and not -half <= place <= half:

@@ -162,6 +162,14 @@ def split(springs: Springs, q: Array, new: Array, e: int, places: Array) -> int:
 
 
 @compiled_within
+def note_peaks(springs: Springs, q: Array, new: Array, e: int, at: float, h: float, peaks: Array) -> None:
+    """Note penetration and pressure at ``at`` of an element: a plate, or half a beam, is often deepest at its end."""
+    after = depth(springs, new, e, at)
+    pressure, _, _ = reaction(depth(springs, q, e, at), after, h, springs.stiffness, springs.damping)
+    peaks[PENETRATION], peaks[PRESSURE] = max(peaks[PENETRATION], after), max(peaks[PRESSURE], pressure)
+
+
+@compiled_within
 def push(
     springs: Springs, q: Array, new: Array, h: float, force: Array, tangent: Array, peaks: Array
 ) -> tuple[float, float, int]:
@@ -179,6 +187,7 @@ def push(
         length, i, count = springs.lengths[e], 2 * e, split(springs, q, new, e, places)
         for piece in range(count - 1):
             span = places[piece + 1] - places[piece]
+            note_peaks(springs, q, new, e, places[piece], h, peaks)
             for point in range(4):
                 at = places[piece] + span * POINTS[point]
                 p, after = depth(springs, q, e, at), depth(springs, new, e, at)
@@ -196,6 +205,8 @@ def push(
                     force[i + j] += weight * pressure * N[j]
                     for m in range(j + 1):
                         tangent[j - m, i + m] += weight * slope * N[j] * N[m]
+    if springs.first < springs.last:
+        note_peaks(springs, q, new, springs.last - 1, 1.0, h, peaks)
     if springs.stop >= 0:
         i = springs.stop
         after = sunk(springs, new, i)

@@ -146,7 +146,7 @@ def beam_model(
     supports = held_dofs(impact, beam, full=full)
     rows = before_the_wall(contact.rows(beam, facing, full=full), impact, supports)
     if impact.opposite_wall is not None:
-        rows = with_opposite_wall(rows, natural, displacement, impact.opposite_wall)
+        rows = with_opposite_wall(rows, natural, impact.opposite_wall)
     system = System(
         mass=inertia,
         stiffness=stiffness,
@@ -234,23 +234,14 @@ def springs_of(impact: Impact, beam: HermiteBeam, facing: Array, side: float = 1
     )
 
 
-def with_opposite_wall(rows: ContactRows, natural: Array, displacement: Array, distance: float) -> ContactRows:
+def with_opposite_wall(rows: ContactRows, natural: Array, distance: float) -> ContactRows:
     """``rows`` of the wall in front, each followed by the same node's of a wall behind at ``distance``, m.
 
-    natural, displacement : (dofs,), the bow at the first touch, and the unknowns then.
-
-    Raises ``ValueError`` for contact that is not at nodes, or a distance that leaves the bow no room.
+    natural : (dofs,), the bow at the first touch. Raises ``ValueError`` for contact that is not at nodes.
     """
     if rows.dofs.shape[1] != 1:
         raise InputError('opposite_wall takes contact.kind = "node" or "alternate"')
-    touched = rows.dofs[:, 0]
-    bow = natural[touched]
-    gap = bow + distance
-    if np.any(gap + displacement[touched] < 0.0):
-        raise InputError(
-            f"opposite_wall must leave room for the bow of {float(-bow.min()):.6g} m behind its apex (got {distance!r})"
-        )
     both = rows.at(np.repeat(np.arange(len(rows)), 2))
     both.factors[1::2] *= -1.0
-    both.gap[1::2] = gap
+    both.gap[1::2] = natural[rows.dofs[:, 0]] + distance
     return both

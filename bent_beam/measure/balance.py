@@ -178,6 +178,8 @@ def _second_moment(history: ImpactHistory, missing: Array | None) -> float | Non
     unexplained = np.abs(gained - gained[0] - force + pushed) - np.abs(missing).max() * np.square(x).max()
     unexplained -= 2.0 * impact.bending_stiffness * np.abs(turned[::2] - coarser).max()  # what lies between instants
     least = np.abs(history.array("total_impulse")) * np.square(np.diff(x).max())  # a place is known to an element
+    if impact.wall_stiffness is not None:
+        unexplained -= least / 4.0  # a push between nodes turns them, too
     return _residual(np.maximum(unexplained, 0.0), np.maximum(np.abs(pushed), least))
 
 

@@ -258,8 +258,9 @@ class Springs(Contact):
     """What stands in the place of a contact where the wall has a stiffness; it has no settings of its own."""
 
     integrator: ClassVar[Integrator] = Trapezoidal()  # conserves energy: an elastic wall gives back what it took
-    # what elements much shorter than the zone leave as round-off is no residual
-    solver: ClassVar[NewtonSolver] = NewtonSolver(absolute_tolerance=1e-6)
+    # what elements much shorter than the zone leave as round-off is no residual; a contact that changes by less would
+    # push on for a while as the beam leaves a soft wall
+    solver: ClassVar[NewtonSolver] = NewtonSolver(absolute_tolerance=1e-6, contact_tolerance=1e-7)
 
     def refuses(self, impact: Impact, element: Element, integrator: Integrator) -> str | None:
         if impact.opposite_wall is not None:

@@ -49,6 +49,10 @@ def test_every_load_is_in_case_files_and_what_a_path_does_not_know_is_refused_by
 def test_a_first_touch_without_a_bow_whose_apex_it_is_is_refused():
     bow = Impact.whole_beam(0.5).replace(first_touch=0.1)
     assert bow.replace(curvature=0.0, fourth_derivative=0.1).first_touch == 0.1
+    for touch, room in ((0.0, 0.5), (0.5, 1.125)):  # K s²/2 of the farthest end
+        with pytest.raises(ValueError, match=f"opposite_wall must leave room for the bow of {room} m"):
+            Impact.whole_beam(1.0).replace(first_touch=touch, opposite_wall=0.99 * room)
+        Impact.whole_beam(1.0).replace(first_touch=touch, opposite_wall=room)
     with pytest.raises(ValueError, match=r"^first_touch, the place of .* has no effect on a straight beam"):
         bow.replace(curvature=0.0)
 

@@ -110,6 +110,13 @@ def test_of_two_runs_of_the_whole_beam_both_halves_are_compared_and_drawn() -> N
     assert compare_histories(*runs)["largest_difference"]["gap"] == pytest.approx(2.0)
     mirrored = [history_of(time, x, symmetry="full", gap=np.outer(time, np.minimum(0.0, s * x))) for s in (0.0, 1.0)]
     assert compare_histories(*mirrored)["largest_difference"]["gap"] == pytest.approx(1.0)  # apart on the left alone
+    late, early = (
+        history_of(time[1:], x, symmetry="full", total_impulse=time[1:]),
+        history_of(time, x, symmetry="full", total_impulse=time),
+    )
+    assert compare_histories(early, late)["largest_difference"]["total_impulse"] == pytest.approx(0.0)  # where both are
+    energies = [history_of(time, part * x, symmetry="full", kinetic_energy=part * (2.0 - time)) for part in (1.0, 0.5)]
+    assert compare_histories(*energies)["largest_difference"]["kinetic_energy"] is None  # of unlike parts of a beam
     small = [history_of(time, x, symmetry="full", total_impulse=share * time) for share in (1e-3, 2e-3)]
     assert compare_histories(*small)["largest_difference"]["total_impulse"] == pytest.approx(1.0)
     edges = np.linspace(-1.0, 1.0, 5) / runs[0].impact.length_scale

@@ -148,3 +148,20 @@ def test_a_beam_in_a_hole_with_clearance_swings_up_to_either_wall(stiffness) -> 
     assert all(hit.place < 0.05 for hit in found)
     budget = balance_of(history)
     assert budget.energy < 1e-9 and (budget.pull or 0.0) < 1e-9
+
+
+def test_a_plate_is_pressed_hardest_at_its_edge_whatever_the_elements() -> None:
+    """The beam hangs over it to the right."""
+    over = Impact(1.0, 1.0, 2.0, 0.0, 1.0, left_end="clamped", wall_stiffness=1e3, wall_from=-0.5, wall_to=0.1)
+    runs = [HermiteFE(mesh=UniformMesh(length)).simulate(over, end_time=0.3, save=30) for length in (0.1, 0.025)]
+    for name in ("peak_penetration", "peak_pressure"):
+        coarse, fine = (run.array(name)[-1] for run in runs)
+        assert coarse == pytest.approx(fine, rel=2e-3) and fine > 0.0
+
+
+def test_a_stiff_wall_turns_nodes_where_the_beam_shears_and_nothing_is_amiss() -> None:
+    sheared = Impact.whole_beam(2.5, relative_damping=3e-3).replace(
+        shear_stiffness=4e4, rotary_inertia=5e-6, wall_stiffness=3e6
+    )
+    balance = balance_of(HermiteFE(mesh=UniformMesh(0.02)).for_whole_beam(sheared).simulate(sheared, end_time=0.3))
+    assert balance.second_moment < 2e-3 and balance.warnings == []
