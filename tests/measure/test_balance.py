@@ -69,6 +69,14 @@ def test_part_of_a_long_beam_an_expanding_mesh_and_a_beam_under_tension_keep_the
     assert balance_of(method.simulate(bent, end_time=0.005, save=20)).momentum is None
 
 
+@pytest.mark.parametrize("full_beam", [False, True])
+def test_half_a_beam_and_a_whole_one_bear_their_load_over_their_length(full_beam: bool) -> None:
+    loaded = WHOLE.replace(acceleration=5.0)
+    method = HermiteFE(mesh=UniformMesh(1.0 / 20), full_beam=full_beam).for_whole_beam(loaded)
+    balance = balance_of(method.simulate(loaded, end_time=0.2))
+    assert max(balance.momentum, balance.second_moment, balance.initial_energy) < 1e-3
+
+
 def test_a_bend_that_nothing_holds_later_is_let_go_on_both_paths() -> None:
     """q₀ = 1: the wall's impulse at 0.1, 0.3 and 0.5 T*."""
     bent = Impact.whole_beam(2.0, relative_damping=1e-2).replace(fourth_derivative=1.0)

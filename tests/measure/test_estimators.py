@@ -273,6 +273,7 @@ def test_the_first_front_is_where_the_zone_ends_whatever_the_zone_bears_in_any_u
     for tau in history.time[[120, 170, -1]]:
         front = np.sqrt(tau) * (exact.lambda0 + epsilon * exact.lambda1 * tau)
         assert first_front(heavy, tau)[0] == pytest.approx(front, rel=1e-2)
+    assert first_front(heavy, tau)[1] == 0.0  # of the last instant nothing after it tells how it differs from √t
 
 
 def test_two_saved_instants_tell_the_uniform_reaction_between_them():

@@ -100,6 +100,14 @@ def test_a_steel_rod_that_falls_on_a_wall_rebounds_with_0_63_of_its_velocity(tmp
     assert found.impulse == pytest.approx(2.0 * (1.0 + found.restitution + fall), rel=2e-3)
 
 
+def test_what_a_hit_loses_is_what_loads_do_not_give() -> None:
+    time = np.linspace(0.0, 1.0, 101)
+    work, lost = 0.4 * time, 0.3 * np.minimum(time, 0.5)
+    pushes = np.outer(np.minimum(time, 0.5), np.ones(5))
+    (hit,) = hits(recorded(time, pushes, kinetic_energy=1.0 + work - lost, work_of_loads=work))
+    assert (hit.energy, hit.lost) == pytest.approx((1.0 + 0.2 - 0.15, 0.15))
+
+
 def test_a_contact_before_one_wall_stays_one_while_the_other_pushes_too() -> None:
     """However often the run is saved: 0 to 0.5 T* in front, 0.2 to 0.4 T* behind."""
     for count in (41, 401):

@@ -73,6 +73,10 @@ def test_energy_of_the_fast_part_is_the_work_of_the_wall(half):
     heavy = Impact(2.0, 8.0, 600.0, 0.5 / 3.0, 1.0 / 6.0)  # κ/ν = 0.5
     history = simulate_expanding(heavy, QUICK, end_time=0.1 * heavy.time_scale)
     assert history.time[-1] == pytest.approx(0.1 * heavy.time_scale)
+    slope = history.array("slope", -1)
+    assert np.gradient(-history.array("gap", -1), history.positions(-1)) == pytest.approx(
+        slope, abs=0.02 * np.ptp(slope)
+    )
     budget = history.energy_budget()
     assert abs(budget["defect"]) < 1e-5 * budget["work_of_loads"]
 

@@ -71,6 +71,13 @@ def test_shear_and_damping_turn_one_point_s_series_over_without_a_jump() -> None
     assert after == pytest.approx(before, rel=0.03)  # the zone does not leap ahead where its own law takes over
 
 
+def test_a_damped_point_that_shears_little_has_the_force_and_impulse_of_one_that_does_not() -> None:
+    plain = Impact.dimensionless(3.0).replace(damping=0.05)
+    sheared = plain.replace(shear_stiffness=1e4, rotary_inertia=1e-5)
+    one, other = (predict(impact, [0.1]).times[0] for impact in (plain, sheared))
+    assert (other.reaction, other.impulse) == pytest.approx((one.reaction, one.impulse), rel=3e-3)
+
+
 def test_a_prediction_of_a_sheared_beam_is_its_own_and_euler_and_bernoulli_s_in_the_end() -> None:
     plain = Impact(1.0, 1.0, 2e4, 5e-4, 1e-3)  # slopes of a thousandth
     sheared = plain.replace(shear_stiffness=1.0, rotary_inertia=0.2)
