@@ -15,6 +15,7 @@ from bent_beam.method import method_from_tables
 from exudyn_models import CONTACTS, ELEMENTS, INTEGRATORS, ExudynModel
 from exudyn_models.contacts import Penalty
 from exudyn_models.elements import GeometricallyExact
+from exudyn_models.geometry import TrueGeometry
 from exudyn_models.integrators import GeneralizedAlpha, Newmark
 from theory import contact_parameters
 
@@ -55,6 +56,16 @@ def test_sections_turn_at_first_as_the_rate_of_curvature_has_it_in_si_units():
     model = exudyn_models.build(sheared, mesh=MESH, element=GeometricallyExact())
     turning = model.mbs.GetNode(model.nodes[-1])["initialVelocities"][2] / model.scale
     assert abs(turning) == pytest.approx(0.5 * 1.5, rel=1e-6)
+
+
+def test_the_true_arc_is_not_stretched_by_its_first_velocities():
+    bent = STEEL.replace(curvature=0.3, curvature_rate=0.5, section_height=0.01)
+    model = exudyn_models.build(bent, mesh=MESH, geometry=TrueGeometry())
+    nodes = [model.mbs.GetNode(node) for node in model.nodes]
+    x = np.array([node["referenceCoordinates"][:2] + node["initialCoordinates"][:2] for node in nodes])
+    along, apart = np.diff(x, axis=0), np.diff([node["initialVelocities"][:2] for node in nodes], axis=0)
+    sizes = np.linalg.norm(along, axis=1) * np.linalg.norm(apart, axis=1)
+    assert np.abs((along * apart).sum(axis=1) / sizes).max() < 0.01
 
 
 def test_elements_are_equal_in_the_zone_and_longer_ahead_of_it():
