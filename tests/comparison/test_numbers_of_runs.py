@@ -45,6 +45,11 @@ def test_companions_that_agree_better_than_whole_beams_can_leave_a_ten_thousandt
     """A thousandth where short waves live long, once they have run along the beam."""
     made = runs({"impulse": 5.0}, {"impulse": 5.0 + 1e-9}, damping=damping, until=until)
     assert numbers_of(made, ["impulse"])["impulse"].bar == pytest.approx(5.0 * least)
+    slow = Impact(1.0, 1e6, 2.0, 0.5, 1e-3, damping=1e3 * damping)  # the same, a thousand times slower
+    question = dataclasses.replace(made.question, impact=slow, until=until and 1e3 * until)
+    assert slow.slow_time_scale == 1e3
+    again = numbers_of(dataclasses.replace(made, question=question), ["impulse"])["impulse"]
+    assert again.bar == pytest.approx(5.0 * least)
 
 
 def test_curves_that_cross_at_the_time_asked_do_not_agree() -> None:
