@@ -63,7 +63,6 @@ class Simulated:
         largest, unit = reading, {"length": 1.0, "time": 1.0}
         if until is None:
             largest, unit = reading["whole"], scales(impact)
-        place = largest["peak_moment_place"]
         several = impact.opposite_wall is not None or impact.off_centre  # between two walls, or of a beam that rocks
         return {
             "path": history.path,
@@ -85,7 +84,7 @@ class Simulated:
             "pull": pull_of(history),
             "hold": hold_of(history),
             **self._with_error("peak_moment"),
-            "peak_moment_place": (place if impact.off_centre else abs(place)) * unit["length"],
+            "peak_moment_place": largest["peak_moment_place"] * unit["length"],
             "peak_moment_time": largest["peak_moment_time"] * unit["time"],
             **self._with_error("peak_stress"),
             "yield_stress": None if section is None else section.yield_stress,

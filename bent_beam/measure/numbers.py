@@ -160,13 +160,18 @@ class Band:
         return f"{band} (band of {self.runs} runs)"
 
 
+def _digits(error: float) -> int:
+    """How many digits of an error are written: two where the first is 1, as to round 0.0149 to 0.01 would take a third
+    of it."""
+    return 2 if f"{error:.1e}".startswith("1") else 1
+
+
 def _with_bar(value: float, error: float) -> str:
-    """``value`` ± ``error``, both to the first digit of the error, to the second where the first is 1: to round 0.0149
-    to 0.01 would take a third of it."""
+    """``value`` ± ``error``, both to the last digit that is written of the error."""
     if error <= 0.0:
         return f"{value:.6g} ± {error:.1g}"
-    error = float(f"{error:.{1 + f'{error:.1e}'.startswith('1')}g}")
-    significant = 1 + f"{error:.1e}".startswith("1")  # 0.096 has become 0.1
+    error = float(f"{error:.{_digits(error)}g}")
+    significant = _digits(error)  # 0.096 has become 0.1
     power = math.floor(math.log10(max(abs(value), error)))
     if not SMALL <= 10.0**power < LARGE:
         return f"({_with_bar(value / 10.0**power, error / 10.0**power)})e{power:+03d}"

@@ -21,8 +21,8 @@ MAY_BE_HELD = 0.01  # of the run: while this lasts, a start may be held
 
 
 class PeakMoment(NamedTuple):
-    """Largest bending moment, N m (its size), its place, m, and its time, s: of all steps the middle of its
-    saved interval, else the saved instant.
+    """Largest bending moment, N m (its size), its place, m, x or of a symmetric impact |x|, and its time, s: of all
+    steps the middle of its saved interval, else the saved instant.
 
     midspan : the largest at x = 0, N m."""
 
@@ -103,7 +103,7 @@ def peak_moment(history: ImpactHistory, until: float | None = None) -> PeakMomen
         k = first + int(np.argmax(sizes))
         place, middle = history.array("largest_moment_place")[k], history.array("largest_midspan_moment")[first:count]
         time = float(history.time[k - 1 : k + 1].mean())
-        return PeakMoment(float(sizes.max()), float(place), time, float(middle.max()))
+        return PeakMoment(float(sizes.max()), _side(history, float(place)), time, float(middle.max()))
     best = PeakMoment(0.0, 0.0, float(history.time[0]), 0.0)
     midspan = 0.0
     moving = "position" in history
@@ -119,7 +119,12 @@ def peak_moment(history: ImpactHistory, until: float | None = None) -> PeakMomen
         share = -place[middle, 0] / (place[middle, 1] - place[middle, 0])  # linear in an element, as of a cubic
         there = (1.0 - share) * moments[..., middle, 0] + share * moments[..., middle, 1]
         midspan = max(midspan, float(np.abs(there).max(initial=0.0)))
-    return best._replace(midspan=midspan)
+    return best._replace(place=_side(history, best.place), midspan=midspan)
+
+
+def _side(history: ImpactHistory, place: float) -> float:
+    """x, or of a symmetric impact, whose halves are alike, |x|."""
+    return place if history.impact.off_centre else abs(place)
 
 
 def moment_left_out(history: ImpactHistory, until: float | None = None) -> float:
