@@ -87,25 +87,25 @@ def _shapes(points: Array, length: Array, derivative: int) -> Array:
 class Similarity:
     """State of the fast part in ζ and its implicit Euler step: η, u = ∂_s η, nodal reactions ρ, contact set.
 
-    Made by :meth:`hold_start`; then :meth:`set_step`, and :meth:`step` from there on.
+    Made with the held start of a beam without loads on ``mesh``, laid around ``front``; then :meth:`set_step`, and
+    :meth:`step` from there on.
     """
 
-    def __init__(self, zeta: Array, absorber: float, strength: float) -> None:
+    def __init__(self, mesh: ExpandingMesh, front: float, kappa_over_nu: float) -> None:
+        zeta, absorber = mesh.lay(front)
         end = zeta[-1]
-        top = strength * 0.5 * (absorber + end) / (end - absorber)
+        top = mesh.absorber_strength * 0.5 * (absorber + end) / (end - absorber)
         self.zeta = zeta
         self.operators = _operators(zeta, lambda z: top * np.clip((z - absorber) / (end - absorber), 0.0, None) ** 3)
         o = self.operators
         self._undamped_drift, self._undamped_steady = o.drift - o.damping, o.steady - o.damping - o.damped
         self.dofs = 2 * zeta.size
-        self.eta = np.zeros(self.dofs)
         self.rate = np.zeros(self.dofs)
-        self.reaction = np.zeros(zeta.size)
-        self.active = np.zeros(zeta.size, dtype=bool)
+        self.inertia = np.zeros(self.dofs)
         self.widened = 1.0  # tolerances over round-off, most of all steps
         self.push, self.pull = 0.0, 0.0  # largest of a contact in any step
         self.iterations = 0
-        self.inertia = np.zeros(self.dofs)
+        self._hold_start(leading_obstacle(zeta, kappa_over_nu))
 
     def set_step(self, backward: float, tension: float = 0.0) -> None:
         """``backward`` = b of ∂_s f ≈ b (f − f_old): τ_new/h for Euler, 0 for the steady state; ``tension`` nτ."""
@@ -147,7 +147,7 @@ class Similarity:
         reaction = np.where(active, (self.matrix @ eta - right)[0::2], 0.0)
         return eta, reaction
 
-    def hold_start(self, obstacle: Array) -> None:
+    def _hold_start(self, obstacle: Array) -> None:
         """The self-similar state with the nodes behind the front held, which is the last node for which holding
         everything up to it still pushes it away from the wall.
         """
@@ -164,7 +164,6 @@ class Similarity:
                 high = middle - 1
         self.active = np.arange(self.zeta.size) <= low
         self.eta, self.reaction = self._solve(zero, obstacle, self.active)
-        self.rate = zero
 
     def step(self, obstacle: Array) -> None:
         """One implicit Euler step; ``obstacle`` (n,) is W₀ at the new time where contact may occur, −1 elsewhere.
@@ -258,14 +257,8 @@ def similarity(kappa_over_nu: float, mesh: ExpandingMesh) -> Similarity:
         interior_elements=ExpandingMesh.interior_elements,
     )
     for _ in range(40 if front > 0.0 else 0):
-        state = Similarity(*coarse.lay(front), coarse.absorber_strength)
-        state.hold_start(leading_obstacle(state.zeta, kappa_over_nu))
-        found = max(state.front, 0.3 * front)
-        settled = abs(found - front) < 0.02 * front
-        front = found
-        if settled:
+        before, front = front, max(Similarity(coarse, front, kappa_over_nu).front, 0.3 * front)
+        if abs(front - before) < 0.02 * before:
             break
     front = float(f"{front:.6e}")  # the same mesh for the same problem in other units, whose front differs by round-off
-    state = Similarity(*mesh.lay(front), mesh.absorber_strength)
-    state.hold_start(leading_obstacle(state.zeta, kappa_over_nu))
-    return state
+    return Similarity(mesh, front, kappa_over_nu)
