@@ -60,14 +60,14 @@ class ExpandingMesh(Part):
         while ahead[-1] < end and len(ahead) <= MAXIMUM_NODES:
             ahead.append(ahead[-1] + size(ahead[-1]))
         behind = [front]
-        while front > 0.0 and behind[-1] > 0.0 and len(behind) <= MAXIMUM_NODES:
+        while behind[-1] > 0.0 and len(behind) <= MAXIMUM_NODES:
             behind.append(behind[-1] - size(behind[-1]))
         if len(ahead) + len(behind) > MAXIMUM_NODES:
             raise InputError(
                 f"mesh: more than {MAXIMUM_NODES} elements to follow a front at {front:.3g} sqrt(t) (kappa/nu too "
                 "small, or mesh.front_resolution, growth, elements_per_wave, interior_elements or absorber_length)"
             )
-        inner = np.array(behind[:0:-1]) if front > 0.0 else np.empty(0)
+        inner = np.array(behind[:0:-1])
         if inner.size:  # stretched so that it begins at the centre exactly
             inner = front - (front - inner) * (front / (front - inner[0]))
             inner[0] = 0.0
