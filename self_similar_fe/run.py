@@ -138,13 +138,13 @@ class Run:
         return math.sqrt(self.tau) * state.stored(velocity), float(velocity @ state.internal_force()), absorbed
 
     def full_velocity(self) -> Array:
-        """η_τ as Hermite degrees of freedom (value and ζ-derivative, from the curvature of both elements)."""
+        """η_τ = (D + 1) η as Hermite degrees of freedom (value and ζ-derivative, from the curvature of both elements)."""
         state = self.state
         eta, zeta = state.eta, state.zeta
         left, right = end_curvatures(zeta, eta[0::2], eta[1::2]).T
         bend = np.concatenate([[left[0]], 0.5 * (right[:-1] + left[1:]), [right[-1]]])
         velocity = np.empty_like(eta)
-        velocity[0::2] = state.velocity()
+        velocity[0::2] = state.rate[0::2] + eta[0::2] - 0.5 * zeta * eta[1::2]
         velocity[1::2] = state.rate[1::2] + 0.5 * eta[1::2] - 0.5 * zeta * bend
         return velocity
 

@@ -225,10 +225,6 @@ class Similarity:
         stiff = o.bending @ self.eta + self.tension * (o.tension @ self.eta)
         return 0.5 * float(velocity @ (o.mass @ velocity) + self.eta @ stiff)
 
-    def velocity(self) -> Array:
-        """η_τ = (D + 1) η at the nodes."""
-        return self.rate[0::2] + self.eta[0::2] - 0.5 * self.zeta * self.eta[1::2]
-
 
 def worst_of_runs(excess: Array, active: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """The worst of each run of neighbours that are wrong alike; runs of two whole."""
