@@ -69,21 +69,17 @@ def simulate_expanding(
         run = Run(impact, mesh, end_time, wanted)
     except ArithmeticError as error:
         raise SimulationError(str(error), time=0.0, step=0, advice="a larger mesh.front_resolution") from None
-    failure: ArithmeticError | None = None
     try:
         run.follow(progress)
     except ArithmeticError as error:
-        failure = error
-    history = run.history(clock.perf_counter() - began, failure is None) if len(run.records) > 1 else None
-    if failure is not None or history is None:
         raise SimulationError(
-            str(failure),
+            str(error),
             time=run.tau * impact.time_scale,
             step=run.steps,
             advice="a smaller mesh.step_ratio, a larger mesh.front_resolution, or an earlier end time",
-            history=history,
-        )
-    return history
+            history=run.history(clock.perf_counter() - began, False) if len(run.records) > 1 else None,
+        ) from None
+    return run.history(clock.perf_counter() - began, True)
 
 
 class Run:
