@@ -94,10 +94,10 @@ class Run:
         self.axial = impact.epsilon_axial
         ratio = mesh.step_ratio
         affordable("mesh.step_ratio and mesh", mesh.decades * math.log(10.0) / ratio, zeta.size, saves, MOST_WORK)
-        self.total = max(2, math.ceil(mesh.decades * math.log(10.0) / ratio))
+        self.total = math.ceil(mesh.decades * math.log(10.0) / ratio)
         self.ratio = math.exp(mesh.decades * math.log(10.0) / self.total)  # τ_new/τ_old
         recorded = min(self.total, math.ceil(min(3.0, mesh.decades) * math.log(10.0) / math.log(self.ratio)))
-        self.stride = max(1, math.ceil(recorded / max(saves - 1, 1)))
+        self.stride = math.ceil(recorded / (saves - 1))
         self.first_saved = self.total - (recorded // self.stride) * self.stride
         leading = leading_obstacle(zeta, impact.kappa_over_nu)
         units = impact.length_scale, impact.time_scale, impact.deflection_scale

@@ -58,11 +58,8 @@ class StoppedBeam:
                 f"damping must be positive and finite (got {self.damping!r}): without it the reaction of a stopped "
                 "beam is a divergent series that changes sign arbitrarily early, and there is no first release"
             )
-        if self._modes(self._without_ends) > _MOST_MODES:
-            raise ValueError(
-                f"damping must be larger (got {self.damping!r}): the sum would take {self._modes(self._without_ends)} "
-                "modes"
-            )
+        if (modes := self._modes(self._without_ends)) > _MOST_MODES:
+            raise ValueError(f"damping must be larger (got {self.damping!r}): the sum would take {modes} modes")
 
     def impulse(self, times: ArrayLike) -> FloatArray:
         """J(t), μℓV₀: what the wall has given; absolute error below 1e-12."""
@@ -159,7 +156,8 @@ class StoppedBeam:
         b, sigma = _cantilever(modes)
         eta, age = self.damping, t / self.damping
         overdamped_decay = np.exp(-age)
-        first, second = (self._tail(modes, power) for power in ((7, 11) if kind == "moment" else (6, 10)))
+        # Σ b^{−power} of the modes left out, b = (j − ½)π
+        first, second = (zeta(n, modes + 0.5) / np.pi**n for n in ((7, 11) if kind == "moment" else (6, 10)))
         if kind == "impulse":
             rate, _ = self._oscillators(b**2, t)
             tail = 8.0 * overdamped_decay * (first / eta**2 + (3.0 - age) * second / eta**4)
@@ -169,11 +167,6 @@ class StoppedBeam:
         if kind == "reaction":
             return force @ (8.0 * sigma**2 * b**2) + 8.0 * tail
         return force @ (4.0 * sigma * b) + 4.0 * tail
-
-    @staticmethod
-    def _tail(modes: int, power: int) -> float:
-        """Σ b^{−power} of the modes left out, b = (j − ½)π."""
-        return float(zeta(power, modes + 0.5) / np.pi**power)
 
     def _oscillators(self, omega: FloatArray, t: FloatArray) -> tuple[FloatArray, FloatArray]:
         """q̇ and q + ηq̇, shape (times, modes), each by the form that does not cancel for its damping."""
