@@ -200,8 +200,6 @@ class _Path:
         In y = tanh u these are roots of polynomials that change sign on [0, 1]; a bisection will do, for
         the path may turn anywhere near.
         """
-        if self.lambda0 == 0.0:
-            return np.zeros_like(self.x)
         low, high = np.zeros_like(self.x), np.full_like(self.x, np.tanh(_FARTHEST))
         for _ in range(40):
             y = 0.5 * (low + high)
