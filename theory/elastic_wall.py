@@ -63,8 +63,7 @@ class WallHistory:
     @property
     def impulse(self) -> FloatArray:
         """∫F dt from 0 to each time, V₀√μ(EI k)^{1/4} t_k."""
-        steps = 0.5 * np.diff(self.time) * (self.force[1:] + self.force[:-1])
-        return np.concatenate([[0.0], np.cumsum(steps)])
+        return np.asarray(scipy.integrate.cumulative_trapezoid(self.force, self.time, initial=0.0))
 
 
 @dataclass(frozen=True)
@@ -224,8 +223,6 @@ def _loads(p: FloatArray, pressure: FloatArray, dx: float) -> tuple[FloatArray, 
 
 def flat_limit(wall_damping_ratio: float) -> tuple[float, float]:
     """f√(κ/ν) and the time of the largest force, t_k, as κ/ν → 0; relative error 1e-10 of the value."""
-    from scipy.optimize import minimize_scalar  # slow to load
-
     zeta = wall_damping_ratio
     nodes, weights = np.polynomial.legendre.leggauss(40)
 
@@ -237,7 +234,8 @@ def flat_limit(wall_damping_ratio: float) -> tuple[float, float]:
         pressure = np.exp(-zeta * age) * (2.0 * zeta * np.cos(turn).real + (1.0 - 2.0 * zeta**2) * sine)
         return float(2.0 * math.sqrt(2.0) * root * (weights @ pressure))
 
-    found = minimize_scalar(lambda t: -force(t), bounds=(1e-6, 2.4), method="bounded", options={"xatol": 1e-10})
+    options = {"xatol": 1e-10}
+    found = scipy.optimize.minimize_scalar(lambda t: -force(t), bounds=(1e-6, 2.4), method="bounded", options=options)
     return force(float(found.x)), float(found.x)
 
 
