@@ -99,14 +99,11 @@ class Run:
         recorded = min(self.total, math.ceil(min(3.0, mesh.decades) * math.log(10.0) / math.log(self.ratio)))
         self.stride = math.ceil(recorded / (saves - 1))
         self.first_saved = self.total - (recorded // self.stride) * self.stride
-        leading = leading_obstacle(zeta, impact.kappa_over_nu)
         units = impact.length_scale, impact.time_scale, impact.deflection_scale
         self.loads = impact.free_motion(0.0).scaled(*units).first_order()  # at ξ = ζ√τ: τ² of what they are at ζ, τ = 1
-        first = self.loads(zeta, 1.0)
+        self.leading, self.first = leading_obstacle(zeta, impact.kappa_over_nu), self.loads(zeta, 1.0)
         # The free motion is a Taylor polynomial: far from the contact its terms mean nothing, so nothing touches there.
         self.near = zeta <= 1.5 * self.front + 0.5
-        self.leading, self.first = np.where(self.near, leading, -1.0), np.where(self.near, first, 0.0)
-        self.free = (leading, first)
         self.tau = self.end / self.ratio**self.total
         self.steps = 0
         reaction = float(self.state.reaction.sum())
@@ -157,7 +154,7 @@ class Run:
             before = state.reaction
             if self.axial:
                 state.set_step(backward, self.axial * self.tau)
-            state.step(self.leading + self.tau * self.first)
+            state.step(np.where(self.near, self.leading + self.tau * self.first, -1.0))
             # reactions are ρ/√τ and moments ρζ; the mean of both ends integrates ρ = const and ρ ~ τ to second order
             roots = 2.0 * (math.sqrt(self.tau) - math.sqrt(tau_old))
             mean = 0.5 * (before + state.reaction)
@@ -179,8 +176,7 @@ class Run:
     def record(self) -> None:
         """One more instant, SI units."""
         state, tau, p = self.state, self.tau, self.impact
-        leading, first = self.free
-        obstacle = leading + tau * first
+        obstacle = self.leading + tau * self.first
         root = math.sqrt(tau)
         velocity, eta = self.full_velocity(), state.eta
         deflection, push = p.deflection_scale, p.mass_per_length * p.length_scale * p.velocity  # μ l* V₀, N s
