@@ -168,23 +168,19 @@ def predict(impact: Impact, times: Iterable[float] | float = (), *, section: Sec
     yields = None if stress is None or limit is None else stress > limit
     wall = on_elastic_wall(impact, solved)
     holds = validity(impact, solved, rigid_from=0.0 if wall is None else wall.rigid_from, yields=bool(yields))
-    if impact.damping > 0.0 and 0.0 < holds.until < math.inf:  # grows until then
-        last = _at_time(impact, solved, bending, holds.until * (1.0 - 1e-9), None)
+    if impact.damping > 0.0 and 0.0 < holds.valid_until < math.inf:  # grows until then
+        last = _at_time(impact, solved, bending, holds.valid_until * (1.0 - 1e-9), None)
         peak, stress = last.peak_moment, last.peak_stress
     rows = tuple(_at_time(impact, solved, bending, t, holds.spoiled_by(t)) for t in instants)
     return Prediction(
         **{name: getattr(impact, name) for name in _OF_IMPACT},
         **{name: getattr(solved, name) for name in _OF_CONTACT},
+        **vars(holds),
         lambda1=solved.lambda1 / impact.epsilon,
         r1=solved.r1 / impact.epsilon,
         peak_moment=peak,
         peak_stress=stress,
         yields=yields,
-        valid_from=holds.begins,
-        valid_after=holds.begins_after,
-        valid_until=holds.until,
-        force_until=holds.force_until,
-        limited_by=holds.limited_by,
         peak_force=None if wall is None else wall.peak_force,
         wall=wall,
         times=rows,

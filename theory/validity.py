@@ -61,23 +61,23 @@ SECTION = "section"
 
 @dataclass(frozen=True)
 class Validity:
-    """The theory holds for `begins` ≤ t ≤ `until` (s); `limited_by` names what ends it. Never valid: until = 0.
+    """The theory holds for `valid_from` ≤ t ≤ `valid_until` (s), which `limited_by` ends. Never: `valid_until` = 0.
 
-    `begins_after` names what spoils it before `begins` (None: it holds from the first instant). The force, a
+    `valid_after` names what spoils it before `valid_from` (None: it holds from the first instant). The force, a
     mean over a tenth of the time before and after, holds until `force_until` alone: then waves from the ends swing it.
     """
 
-    begins: float
-    until: float
+    valid_from: float
+    valid_until: float
     limited_by: str
-    begins_after: str | None = None
+    valid_after: str | None = None
     force_until: float = 0.0
 
     def spoiled_by(self, time: float) -> str | None:
         """What spoils the theory at `time` (s); None: it holds."""
-        if self.until == 0.0 or time > self.until:
+        if self.valid_until == 0.0 or time > self.valid_until:
             return self.limited_by
-        return self.begins_after if time < self.begins else None
+        return self.valid_after if time < self.valid_from else None
 
 
 def validity(impact: Impact, solved: ContactParameters, *, rigid_from: float = 0.0, yields: bool = False) -> Validity:
