@@ -240,23 +240,18 @@ class _Path:
         h1 = branch * (1j * np.sqrt(np.pi / 2.0)) * erfc
         h = np.sqrt(2.0 * np.pi) * np.exp(-0.25j * np.pi) * ierfc
         force = 2.0 / np.pi * (self.r0 + self.growth * tanh**2) * sech * du
-        values = [force * sech**2 * h, force * sech * h1, force * h2, 1j * force * h2]
+        values = np.stack([force * sech**2 * h, force * sech * h1, force * h2, 1j * force * h2])
         if np.any(self.axial):
-            # velocity: (3/2)H_N − (β/2)H_N′, against ½(H − βH′) for H
             hn = np.sqrt(2.0 * np.pi) * np.exp(0.25j * np.pi) * (2.0 * i3erfc - 0.5 * ierfc)
             hn1 = -np.sqrt(np.pi / 2.0) * branch * (2.0 * i2erfc - 0.5 * erfc)
             hn2 = np.sqrt(np.pi / 8.0) * np.exp(-0.25j * np.pi) * (2.0 * ierfc - wave / np.sqrt(np.pi))
             stretch = self.axial * sech**2 * force
-            values[0] = values[0] + stretch * sech**2 * hn
-            values[1] = values[1] + stretch * sech * hn1
-            values[2] = values[2] + stretch * hn2
-            values[3] = values[3] + stretch * 0.5 * (3.0 * hn - beta * branch * hn1)
+            rate = 0.5 * (3.0 * hn - beta * branch * hn1)  # against ½(H − βH′) for H
+            values += np.stack([stretch * sech**2 * hn, stretch * sech * hn1, stretch * hn2, stretch * rate])
         if np.any(self.uniform):
             rest = 2.0 * np.sqrt(2.0 * np.pi) * i2erfc
             p = branch * (np.sqrt(np.pi / 2.0) - rest)
             push = side * self.uniform * np.sqrt(2.0 / np.pi) * tanh * sech**2 * du
-            values[0] = values[0] + push * sech**2 * p
-            values[1] = values[1] + push * sech * h
-            values[2] = values[2] + push * h1
-            values[3] = values[3] + push * (p - 0.5 * branch * beta * h)
-        return np.real(np.stack(values))
+            rate = p - 0.5 * branch * beta * h
+            values += np.stack([push * sech**2 * p, push * sech * h, push * h1, push * rate])
+        return np.real(values)
