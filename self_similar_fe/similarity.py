@@ -17,7 +17,7 @@ import numpy as np
 import scipy.sparse as sparse
 from numpy.polynomial import polynomial
 from numpy.typing import NDArray
-from scipy.linalg.lapack import dgbtrf, dgbtrs
+from scipy.linalg import solve_banded
 
 from self_similar_fe.mesh import Array, ExpandingMesh
 
@@ -112,38 +112,27 @@ class Similarity:
         self.backward, self.tension = backward, tension
         o = self.operators
         self.matrix = (backward**2 * o.mass + backward * o.drift + o.steady + tension * o.tension).tocsr()
-        bands = np.zeros((3 * BAND + 1, self.dofs), order="F")
+        self._bands = np.zeros((2 * BAND + 1, self.dofs))
         for k in range(-BAND, BAND + 1):
-            bands[2 * BAND - k, max(k, 0) : self.dofs + min(k, 0)] = self.matrix.diagonal(k)
-        self._bands = bands
-        self._factored: NDArray[np.bool_] | None = None
+            self._bands[BAND - k, max(k, 0) : self.dofs + min(k, 0)] = self.matrix.diagonal(k)
         # a deflection is known to some ulp of 1, so a reaction to that times the stiffness it is computed with; errors
         # far from a contact have long levers
         self._round_off = 1600.0 * np.finfo(float).eps * np.abs(self.matrix.diagonal()[0::2])
 
-    def _factor(self, active: NDArray[np.bool_]) -> None:
-        """Banded LU with the rows of held degrees of freedom replaced by the identity; kept while the set stays."""
-        if self._factored is not None and np.array_equal(self._factored, active):
-            return
-        bands = self._bands.copy(order="F")
-        n = self.dofs
+    def _solve(self, right: Array, obstacle: Array, active: NDArray[np.bool_]) -> tuple[Array, Array]:
+        """η with η = obstacle on the active nodes, and the nodal reactions there."""
+        bands, b, n = self._bands.copy(), right.copy(), self.dofs
         held = np.concatenate([2 * np.flatnonzero(active), [1, n - 2, n - 1]])  # symmetry at 0, rest at the end
         for k in range(-BAND, BAND + 1):
             column = held + k
             inside = (column >= 0) & (column < n)
-            bands[2 * BAND + held[inside] - column[inside], column[inside]] = 1.0 if k == 0 else 0.0
-        self._lu, self._pivots, info = dgbtrf(bands, BAND, BAND, overwrite_ab=1)
-        if info != 0:
-            raise ArithmeticError("the expanding mesh's matrix is singular")
-        self._factored = active.copy()
-
-    def _solve(self, right: Array, obstacle: Array, active: NDArray[np.bool_]) -> tuple[Array, Array]:
-        """η with η = obstacle on the active nodes, and the nodal reactions there."""
-        self._factor(active)
-        b = right.copy()
+            bands[BAND - k, column[inside]] = 1.0 if k == 0 else 0.0
         b[0::2][active] = obstacle[active]
         b[1] = b[-2] = b[-1] = 0.0
-        eta, _ = dgbtrs(self._lu, BAND, BAND, b, self._pivots)
+        try:
+            eta = solve_banded((BAND, BAND), bands, b, overwrite_b=True, check_finite=False)
+        except np.linalg.LinAlgError:
+            raise ArithmeticError("the expanding mesh's matrix is singular") from None
         reaction = np.where(active, (self.matrix @ eta - right)[0::2], 0.0)
         return eta, reaction
 
