@@ -112,9 +112,7 @@ class Similarity:
         self.backward, self.tension = backward, tension
         o = self.operators
         self.matrix = (backward**2 * o.mass + backward * o.drift + o.steady + tension * o.tension).tocsr()
-        self._bands = np.zeros((2 * BAND + 1, self.dofs))
-        for k in range(-BAND, BAND + 1):
-            self._bands[BAND - k, max(k, 0) : self.dofs + min(k, 0)] = self.matrix.diagonal(k)
+        self._bands = self.matrix.todia().data[::-1]  # from the highest diagonal down
         # a deflection is known to some ulp of 1, so a reaction to that times the stiffness it is computed with; errors
         # far from a contact have long levers
         self._round_off = 1600.0 * np.finfo(float).eps * np.abs(self.matrix.diagonal()[0::2])
