@@ -136,12 +136,10 @@ class StoppedBeam:
         result[early] = self._first(flat[early], kind)
         rest = np.flatnonzero(flat >= self._without_ends)
         rest = rest[np.argsort(flat[rest])]
-        start = 0
-        while start < rest.size:
-            modes = self._modes(float(flat[rest[start]]))
-            chosen = rest[start : start + max(1, _AT_ONCE // modes)]
+        while rest.size:
+            modes = self._modes(float(flat[rest[0]]))
+            chosen, rest = np.split(rest, [max(1, _AT_ONCE // modes)])
             result[chosen] = self._sum(flat[chosen], modes, kind)
-            start += chosen.size
         return result.reshape(values.shape)
 
     def _first(self, t: FloatArray, kind: str) -> FloatArray:
