@@ -131,7 +131,7 @@ class Run:
         return math.sqrt(self.tau) * state.stored(velocity), float(velocity @ state.internal_force()), absorbed
 
     def full_velocity(self) -> Array:
-        """η_τ = (D + 1) η as Hermite degrees of freedom (value and ζ-derivative, from the curvature of both elements)."""
+        """η_τ = (D + 1) η as Hermite degrees of freedom (value, and ζ-derivative by the curvature of both elements)."""
         state = self.state
         eta, zeta = state.eta, state.zeta
         left, right = end_curvatures(zeta, eta[0::2], eta[1::2]).T
