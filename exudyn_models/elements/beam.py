@@ -129,11 +129,7 @@ class Beam(ABC):
         """
         mass = np.zeros(self.rotation_coordinate + 1)
         mass[list(coordinates)] = INERTIA * self.units.mass_per_length * self.units.length
-        none = np.diag(np.zeros_like(mass))
-        body: dict[str, Any] = {"massMatrix": np.diag(mass), "stiffnessMatrix": none, "dampingMatrix": none}
-        self.mbs.AddObject(
-            items.ObjectGenericODE2(nodeNumbers=[self.nodes[node]], forceVector=np.zeros_like(mass), **body)
-        )
+        self.mbs.AddObject(items.ObjectGenericODE2(nodeNumbers=[self.nodes[node]], massMatrix=np.diag(mass)))
 
     def load_uniformly(self, acceleration: float) -> None:
         """A load μ·``acceleration`` per unit length along y."""
