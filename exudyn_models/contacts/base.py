@@ -96,7 +96,7 @@ class HeldStrip:
         if time < self.start:
             return self.captured.copy()
         held = np.zeros_like(self.captured)
-        if not self.hold or time >= self.until:
+        if time >= self.until:
             return held
         for side in self._sides:
             caught = self.captured & side

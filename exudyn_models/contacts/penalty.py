@@ -147,8 +147,6 @@ class PenaltyRun(ContactRun):
 
     def _held_or_let_go(self, time: float) -> bool:
         """Hold the nodes that are to be held from ``time`` on, and no others; whether any changed."""
-        if time >= self.strip.until and not self.held.any():
-            return False
         wanted = np.zeros_like(self.held)
         wanted[: self.strip.captured.size] = self.strip.wanted(time)
         changed = np.flatnonzero(wanted != self.held)
@@ -211,11 +209,8 @@ class Penalty(Contact):
             damping = MATCHED if own else PLASTIC * plastic if plastic else DAMPING
             damping *= math.sqrt(stiffness / STIFFNESS)
         times = element_times(local, beam.scaling.shear_length)
-        k, d = stiffness / times**2, damping / times
-        if self.stiffness is not None:
-            k = np.full_like(k, self.stiffness / beam.scaling.stiffness)
-        if self.damping is not None:
-            d = np.full_like(d, self.damping / beam.scaling.damping)
+        k = stiffness / times**2 if self.stiffness is None else self.stiffness / beam.scaling.stiffness
+        d = damping / times if self.damping is None else self.damping / beam.scaling.damping
         strip = HeldStrip(wall, self.hold, 0.0 if plastic and self.hold_start is None else self.hold_start)
         chosen = {"stiffness": stiffness, "damping": damping}
         about = {f"relative_{name}": one for name, one in chosen.items() if getattr(self, name) is None}
