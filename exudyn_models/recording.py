@@ -51,9 +51,7 @@ def nodal_means(ends: Array) -> Array:
 
 def onwards(before: Any, gains: Array) -> Array:
     """Sums after each gain, ``before`` first."""
-    sums = np.zeros((len(gains) + 1, *gains.shape[1:]))
-    np.cumsum(gains, axis=0, out=sums[1:])
-    return np.asarray(before + sums)
+    return np.asarray(before + np.insert(np.cumsum(gains, axis=0), 0, 0.0, axis=0))
 
 
 class Recorder:
@@ -83,7 +81,7 @@ class Recorder:
         self._averaged = np.zeros(contact.contact_s.size)  # contact force after the scheme's averages
         self._rows: list[tuple[Any, ...]] = []  # time, q, v, a, contact force, that along x, active; the first is old
         self._pending: list[int] = []  # rows that are saved
-        self._largest: dict[str, Array] = defaultdict(lambda: np.zeros(3))  # see _keep_largest
+        self._largest: dict[str, Array] = {}  # see _keep_largest
 
     def read(self, t: float) -> tuple[Array, Array]:
         """Take the state at ``t``: q and v. :meth:`sum_up` must follow before any of the sums is used.
@@ -166,15 +164,15 @@ class Recorder:
         middle = nodes[:, np.argmin(np.abs(beam.shape.s))]
         self._keep_largest("moments", nodes.max(axis=1), beam.shape.place[nodes.argmax(axis=1)], middle, anew=True)
 
-    def _keep_largest(self, name: str, sizes: Array, where: Array, others: Array, *, anew: bool) -> None:
-        """Save with each instant the largest of ``sizes``, ``where`` it was, and the largest of ``others``, of all
-        steps so far; ``anew``: since the saved instant before. Each of shape (rows,); row 0 is the
-        last step of the rows before."""
-        rows, begin = np.stack([sizes, where, others], axis=1), 0
-        rows[0] = self._largest.pop(name, np.zeros(3))
+    def _keep_largest(self, name: str, sizes: Array, where: Array, *others: Array, anew: bool) -> None:
+        """Save with each instant the largest of ``sizes``, ``where`` it was, and the largest of each of ``others``, of
+        all steps so far; ``anew``: since the saved instant before. Each of shape (rows,); row 0 is the last step of
+        the rows before."""
+        rows, begin = np.stack([sizes, where, *others], axis=1), 0
+        rows[0] = self._largest.pop(name, 0.0)
 
         def largest(some: Array) -> Array:
-            return np.array([*some[np.argmax(some[:, 0]), :2], some[:, 2].max()])
+            return np.array([*some[np.argmax(some[:, 0]), :2], *some[:, 2:].max(axis=0)])
 
         for k in self._pending:
             self.record[name].append(largest(rows[begin : k + 1]))
@@ -210,11 +208,10 @@ class Recorder:
             gains |= {"pulls": -pulls, "pushes": pushes}
         if contact.wall_springs is not None:
             deepest = np.maximum(depth, 0.0).max(axis=1)
-            self._keep_largest("peaks", force.sum(axis=1), time, deepest, anew=False)
             wall, speed = self.scaling.impact, v[:, contact.coordinates]
             delay = wall.wall_damping / (wall.wall_stiffness or math.inf) / self.scaling.end_time  # c/k
             pressure = np.where(depth > 0.0, depth + delay * speed, 0.0).max(axis=1)  # over k
-            self._keep_largest("pressures", pressure, time, deepest, anew=False)
+            self._keep_largest("peaks", force.sum(axis=1), time, deepest, pressure, anew=False)
             dashpots = np.where(depth > 0.0, force - contact.wall_springs * depth, 0.0)  # also slow what would pull
             gains["loss_wall"] = products(means(dashpots), deeper)
         return gains
@@ -271,12 +268,12 @@ class Recorder:
             "largest_midspan_moment": midspan * moment,
         }
         if s.impact.wall_stiffness is not None:
-            force, when, depth = saved["peaks"].T
+            force, when, depth, pressure = saved["peaks"].T
             of_time |= {
                 "peak_force": force * self.copies * s.impulse / s.end_time,
                 "peak_force_time": when * s.end_time,
                 "peak_penetration": depth * s.deflection,
-                "peak_pressure": saved["pressures"][:, 0] * s.deflection * s.impact.wall_stiffness,
+                "peak_pressure": pressure * s.deflection * s.impact.wall_stiffness,
             }
         groups = ((("time", "x"), at_nodes), (("time", "contact"), at_contact), (("time",), of_time))
         return ImpactHistory.build(
