@@ -126,10 +126,9 @@ def _chosen(method: ExudynModel, impact: Impact, end: float) -> Chosen:
     if impact.wall_stiffness is not None:
         return method.chosen(impact, end)
     explicit = method.integrator is not None and method.integrator.explicit
-    if not explicit:
-        method = dataclasses.replace(method, mesh=method.mesh or _equal_elements(impact, end))
+    mesh = method.mesh if explicit else method.mesh or _equal_elements(impact, end)
     contact = method.contact or (Penalty(hold_start=0.0) if explicit or impact.shear_stiffness is not None else QUIET)
-    chosen = dataclasses.replace(method, contact=contact).chosen(impact, end)
+    chosen = dataclasses.replace(method, mesh=mesh, contact=contact).chosen(impact, end)
     if not isinstance(chosen.integrator, Implicit) or chosen.integrator.time_step is not None:
         return chosen
     equal = dataclasses.replace(chosen.integrator, time_step=end / EQUAL_STEPS, relative_step=None)

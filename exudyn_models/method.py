@@ -1,9 +1,6 @@
 """The Exudyn path as a method: its parts, each given or left to be chosen from the problem, and one impact by them.
 
     μ y_tt + EI y_xxxx = EI q₀ + μ a₀ − r,   0 ≤ r ⊥ −y ≥ 0                       (thesis 2.1.1–2)
-
-The beam is modelled in the units of :mod:`exudyn_models.geometry`, with the initial shape, velocity field and load for
-which, without contact, y₀ of :class:`bent_beam.Impact` is the motion.
 """
 
 from __future__ import annotations
@@ -154,8 +151,7 @@ class ExudynModel(Part):
                 yield "left_end, right_end: exudyn.geometry.kind true knows free ends only: take linear"
         for name, others in apart.items():
             for other in others:
-                if getattr(impact, other):
-                    given = getattr(impact, other)
+                if given := getattr(impact, other):
                     yield f"{other} is not modelled together with {name} (got {given!r}); the Hermite path follows both"
         element = self.element or chosen_element(impact)
         of_contact = contact.refuses(impact, element, self.integrator or contact.integrator)

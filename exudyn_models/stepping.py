@@ -125,10 +125,8 @@ class Stepping:
         """The parts and what was chosen with them, JSON-ready; times in s, lengths in m."""
         scaling, settling = self.layout.scaling, self.settling
         found: dict[str, Any] = {n: describe(part) for n, part in vars(self.chosen).items() if is_dataclass(part)}
-        if scaling.impact.wall_stiffness is None:
-            found["contact"] |= self.run.contact.chosen
-        else:  # its contact is none that can be asked for
-            found["contact"] = None
+        springs = scaling.impact.wall_stiffness is not None  # a contact that cannot be asked for
+        found["contact"] = None if springs else found["contact"] | self.run.contact.chosen
         if math.isfinite(self.stable):
             found["stable_step"] = self.stable * scaling.end_time
         if settling is not None:

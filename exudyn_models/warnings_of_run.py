@@ -82,29 +82,27 @@ def _of_contact(run: Recorder, history: ImpactHistory) -> Iterator[str]:
 
 def _of_front(places: Array, scaling: Scaling) -> list[str]:
     """The first of two times at which the bending ahead of the front has too few elements."""
-    for part in (1.0, 0.1):
+    for part, when in ((1.0, "the end time"), (0.1, "0.1 of the end time")):
         k = min(int(np.searchsorted(places, scaling.front * math.sqrt(part))), places.size - 2)
         held = 2.0 / scaling.front * math.sqrt(part) / (places[k + 1] - places[k])
         if held < NEEDED:
-            when = "the end time" if part == 1.0 else f"{part:g} of the end time"
             return [f"under-resolved front: its bending length holds {held:.1f} elements at {when}, needs {NEEDED:g}"]
     return []
 
 
 def _of_depth(run: Recorder) -> Iterator[str]:
     record, shape = run.record, run.beam.shape
-    if record["y"]:
-        untouchable = np.ones(shape.s.size, bool)
-        near = np.searchsorted(shape.s, run.contact.contact_s)
-        untouchable[max(0, near.min() - 1) : near.max() + 2] = False
-        free = shape.y + record["time"][-1] * shape.velocity_y - shape.wall_y  # what enters so is let through
-        if (record["y"][-1][untouchable & (free <= 0.0)] > 0.0).any():
-            yield "the beam enters the wall outside the zone given contact points"
+    untouchable = np.ones(shape.s.size, bool)
+    near = np.searchsorted(shape.s, run.contact.contact_s)
+    untouchable[max(0, near.min() - 1) : near.max() + 2] = False
+    free = shape.y + record["time"][-1] * shape.velocity_y - shape.wall_y  # what enters so is let through
+    if (record["y"][-1][untouchable & (free <= 0.0)] > 0.0).any():
+        yield "the beam enters the wall outside the zone given contact points"
 
 
 def _of_slopes(run: Recorder) -> Iterator[str]:
     record, shape = run.record, run.beam.shape
-    slope = max((float(np.abs(s + shape.wall_slope).max()) for s in record["slope"]), default=0.0)
+    slope = max((float(np.abs(s + shape.wall_slope).max()) for s in record["slope"]))
     if slope > STEEPEST_SLOPE and shape.slender:
         yield f"slopes up to {slope:.2g}: linear theory no longer describes this beam, only its first instants"
     elif slope > STEEPEST_SLOPE:
