@@ -138,15 +138,6 @@ class PenaltyRun(ContactRun):
         return np.where((shown != closed) & ~self.held, np.abs(force), 0.0)
 
     def between(self, time: float, step: float, q: Array, v: Array) -> bool:
-        switched = self._held_or_let_go(time)
-        if self.explicit:  # nothing is repeated: the state at the start of a step serves all of it
-            data, closed = self.beam.mbs.systemData, self.closed_by(q, v)
-            if not np.array_equal(closed, data.GetDataCoordinates() <= 0.0):
-                data.SetDataCoordinates(np.where(closed, -TINY, TINY))
-        return switched
-
-    def _held_or_let_go(self, time: float) -> bool:
-        """Hold the nodes that are to be held from ``time`` on, and no others; whether any changed."""
         wanted = np.zeros_like(self.held)
         wanted[: self.strip.captured.size] = self.strip.wanted(time)
         changed = np.flatnonzero(wanted != self.held)
@@ -156,6 +147,10 @@ class PenaltyRun(ContactRun):
             for name, value in (("contactStiffness", self.stiffness[k]), ("contactDamping", self.damping[k])):
                 self.beam.mbs.SetObjectParameter(self.connectors[k], name, 0.0 if wanted[k] else float(value))
         self.held = wanted
+        if self.explicit:  # nothing is repeated: the state at the start of a step serves all of it
+            data, closed = self.beam.mbs.systemData, self.closed_by(q, v)
+            if not np.array_equal(closed, data.GetDataCoordinates() <= 0.0):
+                data.SetDataCoordinates(np.where(closed, -TINY, TINY))
         return bool(changed.size)
 
     def stiffness_and_damping(self) -> tuple[Array, Array]:
