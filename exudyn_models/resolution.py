@@ -90,12 +90,8 @@ def chosen_mesh(impact: Impact, end_time: float | None = None, *, explicit: bool
         element, growth, zone = min(front / OF_ZONE, (2.0 / front) / OF_BENDING), GROWTH, WAVES * front
         if scaling.kappa < 1.0:
             element = min(element, front * max(1.0 - scaling.kappa, SHORTEST) / OF_SHORT_ZONE)
-    rule = ScaleFreeMesh(
-        element * scaling.length,
-        1.0 + growth,
-        zone=None if zone is None else zone * scaling.length,
-        growth_outside=None if zone is None else 1.0 + GROWTH_OF_WAVES,
-    )
+    outside = {} if zone is None else {"zone": zone * scaling.length, "growth_outside": 1.0 + GROWTH_OF_WAVES}
+    rule = ScaleFreeMesh(element * scaling.length, 1.0 + growth, **outside)
     return NodesMesh(tuple(rule.nodes(chosen_half_length(impact, end_time)).tolist()))
 
 
