@@ -58,7 +58,7 @@ class Scaling:
     length : Λ = (EI/μ)^{1/4} √T, m; true_amplitude : V₀T/Λ, at which the model has the shape of the real beam.
     deflection (m), velocity (m/s), slope, impulse (N s), energy (J), stiffness (N/m²) and damping (N s/m²) per length :
         factors.
-    kappa : of the beam against the wall; beam_kappa, wall_kappa : of each.
+    kappa : of the beam against the wall; beam_kappa : of the beam itself.
     front : √(2ν/κ), for choosing a resolution, never to make an answer: without a wall, y₀ = V₀t − Kx²/2 would be
         inside it up to x = √(2V₀t/K), that is λ₀ < √(2ν/κ).
     motion : y₀ − y_w over amplitude, x from first_touch (Λ); loads : the terms of it that load the ends.
@@ -80,7 +80,6 @@ class Scaling:
         self.damping = impact.bending_stiffness * end_time / self.length**4
         self.kappa = impact.kappa_over_nu
         self.beam_kappa = impact.curvature * impact.length_scale
-        self.wall_kappa = impact.wall_curvature * impact.length_scale
         self.front = FARTHEST if self.kappa <= 0.0 else min(FARTHEST, math.sqrt(2.0 / self.kappa))
         self.first_touch = impact.first_touch / self.length
         free = impact.free_motion(impact.relative_curvature)
@@ -234,7 +233,7 @@ class Geometry(Part, ABC):
             angle=angle,
             curvature=-a * k,
             slender=self.true,
-            wall_curvature=a * (scaling.kappa * wall_share - scaling.wall_kappa),
+            wall_curvature=a * (scaling.kappa * wall_share - impact.wall_curvature * impact.length_scale),
             first_touch=scaling.first_touch,
             **laid,
         )

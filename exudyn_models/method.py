@@ -1,6 +1,8 @@
 """The Exudyn path as a method: its parts, each given or left to be chosen from the problem, and one impact by them.
 
     μ y_tt + EI y_xxxx = EI q₀ + μ a₀ − r,   0 ≤ r ⊥ −y ≥ 0                       (thesis 2.1.1–2)
+
+The beam, its loads and its supports are laid out by :mod:`exudyn_models.assembly`.
 """
 
 from __future__ import annotations
@@ -138,10 +140,8 @@ class ExudynModel(Part):
         true = (self.geometry or contact.geometry).true
         if unknown := unmodelled(impact, MODELLED):
             yield unknown
-        apart: dict[str, tuple[str, ...]] = {}  # what is not modelled together
-        for name in ("rotation", "first_touch"):
-            if getattr(impact, name):
-                apart[name] = ("curvature_rate", "fourth_derivative", "axial_force")
+        bending = ("curvature_rate", "fourth_derivative", "axial_force")  # what is not modelled together with …
+        apart: dict[str, tuple[str, ...]] = {n: bending for n in ("rotation", "first_touch") if getattr(impact, n)}
         if supports_or_plate(impact):
             name = "ends" if impact.supported else "wall_from, wall_to"
             apart[name] = ("opposite_wall", "axial_force")

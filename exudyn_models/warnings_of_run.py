@@ -102,7 +102,7 @@ def _of_depth(run: Recorder) -> Iterator[str]:
 
 def _of_slopes(run: Recorder) -> Iterator[str]:
     record, shape = run.record, run.beam.shape
-    slope = max((float(np.abs(s + shape.wall_slope).max()) for s in record["slope"]))
+    slope = max(float(np.abs(s + shape.wall_slope).max()) for s in record["slope"])
     if slope > STEEPEST_SLOPE and shape.slender:
         yield f"slopes up to {slope:.2g}: linear theory no longer describes this beam, only its first instants"
     elif slope > STEEPEST_SLOPE:
