@@ -99,12 +99,9 @@ class ExudynModel(Part):
         for_loads : the run measures what the loads of ``impact`` change: open steps are shorter, an open contact holds.
         """
         shorter = FIRST_ORDER_STEPS if for_loads and self.integrator is None and impact.loaded_to_first_order else 1.0
-        contact = self.contact
-        if impact.wall_stiffness is not None:
-            contact = contact or Springs()
-        elif for_loads:
-            contact = held_for(contact, impact)
-        contact = contact or Penalty()
+        rigid = impact.wall_stiffness is None
+        contact = held_for(self.contact, impact) if rigid and for_loads else self.contact
+        contact = contact or (Penalty() if rigid else Springs())
         integrator = self.integrator or contact.integrator
         mesh = (self.mesh or chosen_mesh(impact, end_time, explicit=integrator.explicit)).refined(self.refine)
         if isinstance(integrator, Implicit) and integrator.is_open:

@@ -196,9 +196,7 @@ class Penalty(Contact):
         if wall.half:
             local[0] *= 2.0  # the node of symmetry stands for half of its neighbourhood
         plastic = 0.0 if self.hold else wall.plastic
-        stiffness, damping = self.relative_stiffness, self.relative_damping
-        if stiffness is None:
-            stiffness = chosen_stiffness(beam, wall)
+        stiffness, damping = self.relative_stiffness or chosen_stiffness(beam, wall), self.relative_damping
         if damping is None:
             own = matched(float(beam.lengths.min()), beam.scaling.shear_length, beam.scaling.material_damping)
             damping = MATCHED if own else PLASTIC * plastic if plastic else DAMPING
