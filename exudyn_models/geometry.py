@@ -96,35 +96,20 @@ class Scaling:
         return FreeMotion({**self.motion.terms, (2, 0): -kappa})
 
 
-@dataclass(frozen=True)
 class Units:
     """What the numbers of Exudyn's items are in: model unit × factor = item. ``simulate`` lays its items in model
     units, which are as good for a beam of any size; :func:`exudyn_models.build` in SI units."""
 
-    length: float = 1.0
-    time: float = 1.0
-    force: float = 1.0
+    def __init__(self, length: float = 1.0, time: float = 1.0, force: float = 1.0) -> None:
+        self.length, self.time, self.force = length, time, force
+        self.bending_stiffness = force * length**2
+        self.mass_per_length = force * (time / length) ** 2
+        self.stiffness, self.damping = force / length, force * time / length
 
     @classmethod
     def si(cls, scaling: Scaling) -> Units:
         """m, s and N."""
         return cls(scaling.length, scaling.end_time, scaling.impact.bending_stiffness / scaling.length**2)
-
-    @property
-    def bending_stiffness(self) -> float:
-        return self.force * self.length**2
-
-    @property
-    def mass_per_length(self) -> float:
-        return self.force * (self.time / self.length) ** 2
-
-    @property
-    def stiffness(self) -> float:
-        return self.force / self.length
-
-    @property
-    def damping(self) -> float:
-        return self.force * self.time / self.length
 
 
 @dataclass(frozen=True)

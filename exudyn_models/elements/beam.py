@@ -41,7 +41,8 @@ class Beam(ABC):
     """A beam in an Exudyn system ``mbs``, whose first nodes are the beam's.
 
     axial_stiffness : EAΛ²/EI; grid_viscosity, viscosity : of each element without and with the material's, (elements,);
-        units : of Exudyn's items; stretch : strain under the axial force.
+        units : of Exudyn's items; stretch : strain under the axial force; shears : whether elements are short enough
+        for shear waves to be what they resolve.
     size : coordinates of the system; horizontal, vertical, rotation : those of the nodes, (nodes,).
     load, load_rate : forces on them, (size,), at t = 0 and by time; upward : 1 where they are y.
     """
@@ -57,7 +58,7 @@ class Beam(ABC):
         self.axial_stiffness, self.stretch = axial_stiffness, scaling.axial_force / axial_stiffness
         self.grid_viscosity, self.viscosity = grid_viscosity, grid_viscosity + scaling.material_damping
         self.lengths = shape.lengths
-        self.tributary = shares(self.lengths)
+        self.tributary, self.shears = shares(self.lengths), float(self.lengths.min()) < scaling.shear_length
         each = self.rotation_coordinate + 1
         self.size = each * shape.s.size
         self.horizontal = np.arange(0, self.size, each)
@@ -69,11 +70,6 @@ class Beam(ABC):
         self.bodies = [mbs.AddObject(self.body(i)) for i in range(self.lengths.size)]
         ground = mbs.AddNode(items.NodePointGround())
         self.ground_marker = mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=ground, coordinate=0))
-
-    @property
-    def shears(self) -> bool:
-        """Whether elements are short enough for shear waves to be what they resolve."""
-        return float(self.lengths.min()) < self.scaling.shear_length
 
     def at_first(self, i: int) -> tuple[list[float], list[float]]:
         """Displacement and velocity along x and y of node ``i`` at the first contact, for Exudyn's item."""
