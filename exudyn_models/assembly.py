@@ -74,9 +74,7 @@ class Layout:
     def ends_follow(self) -> bool:
         """Whether the ends bear the moment and shear of the free motion y₀: where the model cuts the beam, and in runs
         that end before waves from the beam's own ends have time to return."""
-        impact = self.scaling.impact
-        own = self.half_length >= impact.half_length * (1.0 - NEAR)
-        free = own and lasts_until_waves_return(impact, self.scaling.end_time)
+        free = lasts_until_waves_return(self.scaling.impact, self.scaling.end_time)  # of a beam that is not cut
         return any(self.scaling.loads.terms.values()) and not free
 
 
