@@ -1,10 +1,9 @@
 """When a step's contact state has settled: the judge of Exudyn's discontinuous iterations.
 
 Exudyn solves a step with a guess of which connectors are closed, looks at the gaps, and repeats it with the state that
-they show. Its own nodal contact compares that state with the one at the *start* of the step: a step with a capture
-repeats until its repetitions run out, settled or not, and a node that hovers at the wall is accepted as soon as it is
-back where it began. Here the state that a solution *assumed* is compared with the one that it shows. Where the contact
-has a law of its own (``imposes``: closed is what pushes), that decides, and the states are written over Exudyn's.
+they show. Its own nodal contact compares that state with the one at the *start* of the step
+(docs/exudyn_contact_state.md), this judge with the one that the solution *assumed*. Where the contact has a law of its
+own (``imposes``: closed is what pushes), that decides, and the states are written over Exudyn's.
 
 - They agree, but for forces below the tolerance: the step is accepted at once;
 - all connectors follow their gaps at once. When ``BLOCK`` repetitions have not made fewer contradict theirs, one at a

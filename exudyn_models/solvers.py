@@ -1,8 +1,7 @@
 """Exudyn's nonlinear and linear solver settings, how to keep it from printing, and its viewer.
 
 Newton's method is run modified (the Jacobian is kept while it converges) on a sparse factorisation whose pattern is
-kept. Residuals are forces in model units, of the size of the amplitude; below ``absolute_tolerance`` × amplitude they
-are round-off of 12EI/Δx³·y.
+kept. Residuals are forces in model units, of the size of the amplitude.
 """
 
 from __future__ import annotations

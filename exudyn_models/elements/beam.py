@@ -118,11 +118,7 @@ class Beam(ABC):
             self.mbs.AddObject(items.CoordinateConstraint(markerNumbers=markers, offset=place))
 
     def hold_by_inertia(self, node: int, *coordinates: int) -> None:
-        """Hold coordinates of a node by an inertia too large to move.
-
-        Exudyn's explicit solvers set constrained accelerations to zero *after* solving with the unconstrained mass
-        matrix, which destabilises a consistent one.
-        """
+        """Hold coordinates of a node by an inertia too large to move: why explicit solvers need it, docs/exudyn.md."""
         mass = np.zeros(self.rotation_coordinate + 1)
         mass[list(coordinates)] = INERTIA * self.units.mass_per_length * self.units.length
         self.mbs.AddObject(items.ObjectGenericODE2(nodeNumbers=[self.nodes[node]], massMatrix=np.diag(mass)))
