@@ -67,7 +67,6 @@ class Recorder:
         self.beam, self.contact, self.averages = beam, contact, averages
         shape, self.copies = beam.shape, 2.0 if half else 1.0
         self.scaling = scaling = beam.scaling
-        self.wall_y = shape.wall_y
         impact, natural = scaling.impact, scaling.impact.natural_curvature
         # what the bow has been bent by before the first touch
         self.unbent = 0.0 if natural is None else (natural - impact.curvature) * scaling.length / scaling.slope
@@ -114,7 +113,7 @@ class Recorder:
         scaling, beam = self.scaling, self.beam
         return (
             beam.shape.s * scaling.length,
-            (self.wall_y - q[beam.vertical]) * scaling.deflection,
+            (beam.shape.wall_y - q[beam.vertical]) * scaling.deflection,
             v[beam.vertical] * scaling.velocity,
             float(beam.kinetic_energy(v) + beam.strain_energy(q)) * scaling.energy * self.copies,
         )
@@ -136,7 +135,7 @@ class Recorder:
         after["impulse"] = onwards(self.sums["impulse"], self._impulses(dt, q, force, np.diff(total)))
         if self.scaling.impact.supported:
             total = after["impulse"] @ self.contact.signs
-        y, slope = q[:, beam.vertical] - self.wall_y, beam.slope(q) - beam.shape.wall_slope
+        y, slope = q[:, beam.vertical] - beam.shape.wall_y, beam.slope(q) - beam.shape.wall_slope
         moments = beam.bending_moments(q) + self.unbent
         now = {"time": time, "y": y, "velocity": v[:, beam.vertical], "slope": slope}
         now |= {"total_impulse": total, "in_contact": active}

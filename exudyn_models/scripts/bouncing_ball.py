@@ -4,7 +4,6 @@ python exudyn_models/scripts/bouncing_ball.py [--restitution 0.8] [--out FILE]
 """
 
 import argparse
-from collections.abc import Sequence
 
 import exudyn as exu
 import exudyn.itemInterface as items
@@ -16,7 +15,7 @@ from exudyn_models.solvers import quiet
 MASS, GRAVITY, HEIGHT, STIFFNESS, END = 1.0, 9.81, 1.0, 1e7, 2.5
 
 
-def main(arguments: Sequence[str] | None = None) -> None:
+def main(arguments: list[str] | None = None) -> None:
     options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     options.add_argument("--restitution", type=float, default=0.8)
     options.add_argument("--out", default="bouncing_ball.png", help="file to save the figure in")

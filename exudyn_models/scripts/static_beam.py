@@ -6,7 +6,6 @@ fixed at both ends, show this beam).
 """
 
 import argparse
-from collections.abc import Sequence
 from typing import Any
 
 import exudyn as exu
@@ -21,7 +20,7 @@ LENGTH, EI, EA = 2.0, 1.0, 1e4  # m, N m², N
 CLAMPED, HINGED, ROLLER = [1, 1, 0, 1], [1, 1, 0, 0], [0, 1, 0, 0]  # which of x, y, x′, y′ are held
 
 
-def main(arguments: Sequence[str] | None = None) -> None:
+def main(arguments: list[str] | None = None) -> None:
     options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     options.add_argument("--simply-supported", action="store_true")
     options.add_argument("--elements", type=int, default=8)
