@@ -128,11 +128,10 @@ def _chosen(method: ExudynModel, impact: Impact, end: float) -> Chosen:
     explicit = method.integrator is not None and method.integrator.explicit
     mesh = method.mesh if explicit else method.mesh or _equal_elements(impact, end)
     contact = method.contact or (Penalty(hold_start=0.0) if explicit or impact.shear_stiffness is not None else QUIET)
-    chosen = dataclasses.replace(method, mesh=mesh, contact=contact).chosen(impact, end)
-    if not isinstance(chosen.integrator, Implicit) or chosen.integrator.time_step is not None:
-        return chosen
-    equal = dataclasses.replace(chosen.integrator, time_step=end / EQUAL_STEPS, relative_step=None)
-    return dataclasses.replace(chosen, integrator=equal.refined(method.refine))
+    integrator = method.integrator or contact.integrator
+    if isinstance(integrator, Implicit) and integrator.is_open:
+        integrator = dataclasses.replace(integrator, time_step=end / EQUAL_STEPS)
+    return dataclasses.replace(method, mesh=mesh, integrator=integrator, contact=contact).chosen(impact, end)
 
 
 def _equal_elements(impact: Impact, end: float) -> NodesMesh:
