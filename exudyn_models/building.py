@@ -169,7 +169,7 @@ def _sensors(beam: Beam, contact: ContactRun, copies: float) -> dict[str, int]:
     at_first = float(state()[1] @ beam.momentum)
 
     def force() -> list[float]:
-        return [float(contact.plain_forces(*state()) @ contact.signs) * copies * scaling.impulse / scaling.end_time]
+        return [float(contact.plain_forces(*state()).sum()) * copies * scaling.impulse / scaling.end_time]
 
     def impulse() -> list[float]:
         t = mbs.systemData.GetTime() / units.time

@@ -140,7 +140,7 @@ class Stepping:
             "amplitude_of_the_real_beam": scaling.true_amplitude,
             "ends": "moment and shear of the free motion" if self.layout.ends_follow else "free",
             "first_step": self.segments[0].length * scaling.end_time,
-            "last_step": self.segments[-1].length * scaling.end_time,
+            "last_step": (self._step or self.segments[-1].length) * scaling.end_time,
         }
 
     @property

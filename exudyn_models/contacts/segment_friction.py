@@ -114,6 +114,8 @@ class SegmentFriction(Contact):
             reason = "knows one wall only: take penalty (opposite_wall is given)"
         elif impact.wall_curvature:
             reason = f"knows a flat wall only: take penalty (got wall_curvature {impact.wall_curvature})"
+        elif impact.first_touch:
+            reason = f"knows a wall about the beam's middle only: take penalty (got first_touch {impact.first_touch})"
         elif impact.shear_stiffness is not None:
             reason = f"works on cables, which do not shear (got shear_stiffness {impact.shear_stiffness!r}){UNSHEARED}"
         elif impact.curvature == 0.0:

@@ -43,6 +43,16 @@ def test_a_load_in_si_units_presses_as_in_simulate():
     assert read["impulse"][-1, 0] == pytest.approx(history.array("total_impulse")[-1], rel=5e-3)
 
 
+def test_a_second_wall_pushes_the_other_way():
+    """The force that the sensor reads is what changes the momentum: behind the beam a wall takes from it."""
+    between = Impact.whole_beam(0.5, relative_damping=1e-2).replace(opposite_wall=0.3)
+    _, read = solved(between, mesh=UniformMesh(0.05), end_time=0.65)
+    force, impulse = read["force"][:, 0], read["impulse"][:, 0]
+    late = int(np.argmax(impulse)) + 1
+    assert impulse[-1] < 0.9 * impulse.max() and force[:late].min() > -0.01 * force.max()
+    assert force[late:].max() < 0.01 * force.max() and force[late:].min() < -0.05 * force.max()
+
+
 def test_the_ends_bear_moment_and_shear_of_a_bend_in_si_units():
     """EI q₀x²/2 and −EI q₀x of y₀ = q₀x⁴/24."""
     model = exudyn_models.build(STEEL.replace(fourth_derivative=0.01), mesh=MESH)

@@ -73,6 +73,7 @@ REFUSED = [
     # what a part cannot model
     (lambda: asked(ONE_WALL, contact=Rigid()), "one wall"),
     (lambda: asked(ONE_WALL, contact=SegmentFriction()), "one wall"),
+    (lambda: asked(WHOLE.replace(first_touch=0.2), contact=SegmentFriction()), "first_touch 0.2"),
     (lambda: asked(WHOLE.replace(wall_stiffness=1e4), contact=Penalty()), "exudyn.contact has no effect"),
     (lambda: asked(ONE_WALL.replace(wall_stiffness=1e4)), "opposite_wall"),
     (lambda: asked(HINGED.replace(wall_to=0.1), contact=Rigid()), "must be penalty"),
