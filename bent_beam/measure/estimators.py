@@ -98,7 +98,7 @@ def leading_order(
 ) -> LeadingEstimate:
     """λ₀ and r₀ from the last factor ``window`` of time of one run at ε = 0.
 
-    unresolved : l*, :func:`bent_beam.measure.moments.unresolved` at the end; λ₀ is no surer than that over √τ.
+    unresolved : l*, :func:`bent_beam.measure.moments.unresolved_at_end`; λ₀ is no surer than that over √τ.
 
     companions : the same run with elements and steps twice as long (and, for thorough bars, twice as short). What mesh,
     steps and start do to the answer falls at least like Δx, so that the difference from the coarser run is the size of

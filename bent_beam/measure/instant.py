@@ -13,22 +13,12 @@ from typing import Any
 import numpy as np
 
 from bent_beam.history import ImpactHistory
-from bent_beam.measure.moments import (
-    AROUND,
-    element_at,
-    first_front,
-    half_contact_length,
-    jump_of_rim,
-    lift,
-    mean_reaction,
-    unresolved,
-)
+from bent_beam.measure.moments import AROUND, first_front, half_contact_length, lift, mean_reaction, unsure
 from bent_beam.measure.reduction import moment_left_out, peak_moment, wall_peaks
 
 __all__ = ["BEYOND", "Instant", "instant"]
 
 SHARES_AROUND = np.linspace(1.0 - AROUND, 1.0 + AROUND, 9)  # of an instant
-UNSURE = 0.5  # of what a front differs from one ~ √t by
 BEYOND = 1.0 + AROUND  # times an instant: how far a run must go to be read there
 
 
@@ -70,7 +60,7 @@ def instant(history: ImpactHistory, time: float, *, first_spread: bool = False) 
         rim is read without assuming how the zone behind it bears (:func:`bent_beam.measure.moments.first_front`).
     """
     k = int(np.argmin(np.abs(history.time - time)))  # saved times are those of steps
-    front, bent = first_front(history, time) if first_spread else (half_contact_length(history, k), 0.0)
+    front, bent = first_front(history, time) if first_spread else (half_contact_length(history, k), None)
     peak = _so_far(peak_moment, history, time, "moment", jumps=True)
     wall = _so_far(wall_peaks, history, time, "force", "penetration", "pressure")
     begin, end = history.impact.wall_span
@@ -90,18 +80,9 @@ def instant(history: ImpactHistory, time: float, *, first_spread: bool = False) 
         peak_penetration=None if wall is None else wall.penetration,
         peak_pressure=None if wall is None or begin == end else wall.pressure,
         impulse_around=tuple(np.interp(time * SHARES_AROUND, history.time, history.array("total_impulse")).tolist()),
-        element=_unsure(history, k, front, bent, first_spread),
+        element=unsure(history, k, front, bent),
         lift=float(lift(history)[recent].max(initial=0.0)) if first_spread else 0.0,
     )
-
-
-def _unsure(history: ImpactHistory, k: int, front: float | None, bent: float, first_spread: bool) -> float:
-    """What a half length ``front`` may be off by for its mesh and its reading, m."""
-    if front is None:
-        return 0.0
-    if first_spread:
-        return max(UNSURE * bent, unresolved(history, k, front))
-    return max(element_at(history, k, front), jump_of_rim(history, k))
 
 
 def _so_far(read: Callable[..., Any], history: ImpactHistory, time: float, *names: str, jumps: bool = False) -> Any:

@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 from bent_beam.history import ImpactHistory
 
 __all__ = [
-    "Moments", "element_at", "first_front", "half_contact_length", "jump_of_rim", "lift", "local_front",
-    "mean_reaction", "moments", "one_side", "unresolved", "unresolved_at_end",
+    "Moments", "first_front", "half_contact_length", "lift", "local_front", "mean_reaction", "moments",
+    "one_side", "unresolved_at_end", "unsure",
 ]  # fmt: skip
 
 Array = NDArray[np.float64]
@@ -28,6 +28,7 @@ ZONE = 0.7  # of the front: what pushes there is what the zone behind the front 
 AROUND = 0.1  # of the time, before and after
 JUMP = 0.05  # of a rim, between two saved instants: a smooth one moves on by a tenth of that
 FEW = 3  # elements
+UNSURE = 0.5  # of what a front differs from one ~ √t by
 PUSH = 1e-9  # of the largest impulse of a contact point: less is round-off
 
 
@@ -61,8 +62,7 @@ def one_side(history: ImpactHistory) -> tuple[Array, Array]:
         pushes = np.diff(impulse, axis=0, prepend=0.0 * impulse[:1])
         moment = np.cumsum((pushes * 0.5 * (places + np.concatenate([places[:1], places[:-1]]))).sum(axis=1))
     else:
-        places = np.abs(history.contact_positions(0))
-        moment = history.array("impulse") @ places
+        moment = history.array("impulse") @ np.abs(history.contact_positions(0))
     return total, moment / history.sides
 
 
@@ -241,7 +241,7 @@ def half_contact_length(history: ImpactHistory, k: int) -> float | None:
     return float(np.median(rims)) if rims.size else None
 
 
-def jump_of_rim(history: ImpactHistory, k: int) -> float:
+def _jump_of_rim(history: ImpactHistory, k: int) -> float:
     """How far the rim jumps about instant ``k``, m, where the median of :func:`half_contact_length` may as well be the
     next interval's; 0 where it moves on by less than :data:`JUMP` of itself."""
     rims = np.sort(_rims(history, k))
@@ -268,23 +268,32 @@ def mean_reaction(history: ImpactHistory, at: float) -> float | None:
     span = at * np.array([1.0 - AROUND, 1.0 + AROUND])
     if at <= 0.0 or span[1] > time[-1] * (1.0 + 1e-9):
         return None
-    before, after = np.interp(span, time, total)
-    return float((after - before) / (span[1] - span[0]))
+    return float(np.diff(np.interp(span, time, total))[0] / (span[1] - span[0]))
 
 
-def unresolved(history: ImpactHistory, k: int, front: float) -> float:
+def unsure(history: ImpactHistory, k: int, front: float | None, bent: float | None) -> float:
+    """What a half length ``front`` at instant ``k`` may be off by for its mesh and its reading, m. bent : of a
+    :func:`first_front`, what it differs by from one ~ √t; ``None`` of a :func:`half_contact_length`."""
+    if front is None:
+        return 0.0
+    if bent is None:
+        return max(_element_at(history, k, front), _jump_of_rim(history, k))
+    return max(UNSURE * bent, _unresolved(history, k, front))
+
+
+def _unresolved(history: ImpactHistory, k: int, front: float) -> float:
     """Length, m, of the elements of which a front at ``front`` m has passed less than :data:`FEW`; 0 of others."""
-    element = element_at(history, k, front)
+    element = _element_at(history, k, front)
     return element if front < FEW * element else 0.0
 
 
 def unresolved_at_end(history: ImpactHistory, found: Moments) -> float:
     """The same at the last instant, l*."""
     length = history.impact.length_scale
-    return unresolved(history, -1, float(found.front[-1]) * length) / length
+    return _unresolved(history, -1, float(found.front[-1]) * length) / length
 
 
-def element_at(history: ImpactHistory, k: int, place: float) -> float:
+def _element_at(history: ImpactHistory, k: int, place: float) -> float:
     """Length of the element at ``place`` from the first touch, m: a half length is no surer."""
     x = history.positions(k)
     at = min(max(int(np.searchsorted(x, history.impact.first_touch + place)), 1), x.size - 1)
