@@ -92,16 +92,10 @@ def _penetration(history: ImpactHistory) -> float | None:
     if impact.opposite_wall is not None:  # flat, behind the apex at the start
         front = impact.wall_clearance - 0.5 * impact.wall_curvature * (history.positions(0) - impact.first_touch) ** 2
         gap = np.minimum(gap, front + impact.opposite_wall - gap)
-    depth = np.abs(gap[:, _near(history)].min(axis=1, initial=0.0))
+    if "position" in history:  # the free motion means something where a node may touch
+        gap = gap[:, : 1 + int(1.2 * np.flatnonzero(history.array("impulse", -1) > 0.0).max(initial=0))]
+    depth = np.abs(gap.min(axis=1, initial=0.0))
     return float((depth[fallen > 0.0] / fallen[fallen > 0.0]).max(initial=0.0))
-
-
-def _near(history: ImpactHistory) -> NDArray[np.bool_]:
-    """Nodes where the free motion means something: on a mesh that expands, those that may touch."""
-    if "position" not in history:
-        return np.ones(history.positions(0).size, bool)
-    pushed = history.array("impulse", -1) > 0.0
-    return np.asarray(np.arange(pushed.size) <= 1.2 * np.flatnonzero(pushed).max(initial=0))
 
 
 def _pull(history: ImpactHistory) -> float | None:
