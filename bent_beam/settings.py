@@ -67,13 +67,11 @@ def about(word: str) -> list[Setting]:
     return found
 
 
-def _kinds(table: str, kinds: Mapping[str, type]) -> list[Setting]:
-    found = []
+def _kinds(table: str, kinds: Mapping[str, type]) -> Iterator[Setting]:
     for kind, part in kinds.items():
         title = (inspect.getdoc(part) or "").split("\n")[0]
-        found.append(Setting(table, kind, "kind", "", None, f'"{kind}"', title))
-        found += _fields(table, kind, part)
-    return found
+        yield Setting(table, kind, "kind", "", None, f'"{kind}"', title)
+        yield from _fields(table, kind, part)
 
 
 def _fields(table: str, kind: str | None, part: type) -> Iterator[Setting]:
