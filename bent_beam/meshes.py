@@ -10,7 +10,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass
-from typing import Annotated, ClassVar, Protocol, runtime_checkable
+from typing import Annotated, ClassVar, Protocol, Self, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -94,6 +94,13 @@ SizeRatio = Annotated[float, Quantity("", "largest element over the smallest of 
 class _Mesh(Part):
     where: ClassVar[str] = "mesh"
 
+    def refined(self, factor: float) -> Self:
+        """The same mesh with elements ``factor`` times shorter everywhere."""
+        given = {name: value for name, value in vars(self).items() if value is not None}
+        shorter = {name: given[name] / factor for name in ("element_length", "largest") if name in given}
+        slower = {name: given[name] ** (1.0 / factor) for name in ("growth", "growth_outside") if name in given}
+        return dataclasses.replace(self, **shorter, **slower)
+
 
 @dataclass(frozen=True)
 class UniformMesh(_Mesh):
@@ -103,9 +110,6 @@ class UniformMesh(_Mesh):
 
     def nodes(self, half_length: float) -> Array:
         return np.linspace(0.0, half_length, _count(half_length, self.element_length) + 1)
-
-    def refined(self, factor: float) -> UniformMesh:
-        return UniformMesh(self.element_length / factor)
 
 
 def _grown(start: float, first: float, growth: float, end: float, largest: float) -> Array:
@@ -152,8 +156,8 @@ class GradedMesh(_Mesh):
         outer = _grown(end, shortest * self.growth, self.growth, half_length, shortest * self.size_ratio)
         return checked_nodes(np.concatenate([np.linspace(0.0, end, count + 1), outer]))
 
-    def refined(self, factor: float) -> GradedMesh:
-        return GradedMesh(self.element_length / factor, self.growth ** (1.0 / factor), self._zone, self.size_ratio)
+    def refined(self, factor: float) -> Self:
+        return dataclasses.replace(super().refined(factor), zone=self._zone)
 
 
 @dataclass(frozen=True)
@@ -180,10 +184,9 @@ class SquareMesh(_Mesh):
         outer = _grown(inner[-1], last * self.growth, self.growth, half_length, last * self.size_ratio)
         return checked_nodes(np.concatenate([inner, outer]))
 
-    def refined(self, factor: float) -> SquareMesh:
+    def refined(self, factor: float) -> Self:
         # x_i = a√i has elements a²/2x: half as long with a/√2
-        shorter = self.first_element / math.sqrt(factor)
-        return SquareMesh(shorter, self.zone, self.growth ** (1.0 / factor), self.size_ratio)
+        return dataclasses.replace(super().refined(factor), first_element=self.first_element / math.sqrt(factor))
 
 
 @dataclass(frozen=True)
@@ -223,15 +226,6 @@ class ScaleFreeMesh(_Mesh):
         outer = _grown(end, last, self.growth_outside, half_length, max(largest, last))
         return checked_nodes(np.concatenate([inner, outer]))
 
-    def refined(self, factor: float) -> ScaleFreeMesh:
-        return dataclasses.replace(
-            self,
-            element_length=self.element_length / factor,
-            growth=self.growth ** (1.0 / factor),
-            largest=None if self.largest is None else self.largest / factor,
-            growth_outside=None if self.growth_outside is None else self.growth_outside ** (1.0 / factor),
-        )
-
 
 @dataclass(frozen=True)
 class NodesMesh(_Mesh):
@@ -253,10 +247,10 @@ class NodesMesh(_Mesh):
             raise InputError(f"mesh.places must end at the half length {half_length!r} (got {self.places[-1]!r})")
         return places
 
-    def refined(self, factor: float) -> NodesMesh:
+    def refined(self, factor: float) -> Self:
         number = np.arange(len(self.places))
         count = max(2, round(factor * number[-1]))
-        return NodesMesh(tuple(np.interp(np.linspace(0.0, number[-1], count + 1), number, self.places).tolist()))
+        return type(self)(tuple(np.interp(np.linspace(0.0, number[-1], count + 1), number, self.places).tolist()))
 
 
 MESHES: dict[str, type] = {
