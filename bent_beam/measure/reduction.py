@@ -10,13 +10,14 @@ from numpy.typing import NDArray
 
 from bent_beam.history import ImpactHistory
 
-__all__ = ["PeakMoment", "WallPeaks", "hold_of", "moment_left_out", "peak_moment", "pull_of", "wall_peaks"]
+__all__ = ["WALLS", "PeakMoment", "WallPeaks", "hold_of", "moment_left_out", "peak_moment", "pull_of", "wall_peaks"]
 
 Array = NDArray[np.float64]
 CHUNK = 256  # saved instants at once
 OF_RUN, OF_BEAM = 0.02, 0.002  # see _first_resolved
 RESOLVED = 10.0  # elements that a bending wave must have passed before a moment is one of the beam, not of its mesh
 SMOOTH = 3.0  # elements within √(cη), c = √(EI/μ): so many follow the start of a damped beam within 3 %
+WALLS = {"front": "impulse", "opposite": "opposite_impulse"}  # the impulses of their contact points
 MAY_BE_HELD = 0.01  # of the run: while this lasts, a start may be held
 
 
@@ -63,8 +64,7 @@ def _instants(history: ImpactHistory, until: float | None) -> int:
 def _pushed_at(history: ImpactHistory, time: float) -> tuple[float, str] | tuple[None, None]:
     """Mean |x|, m, of the pushes between the saved instants around ``time``, and the wall that gives most of them."""
     k = min(max(int(np.searchsorted(history.time, time)), 1), history.time.size - 1)
-    walls = {"front": "impulse", "opposite": "opposite_impulse"}
-    gains = {w: np.diff(history.array(n, slice(k - 1, k + 1)), axis=0)[0] for w, n in walls.items() if n in history}
+    gains = {w: np.diff(history.array(n, slice(k - 1, k + 1)), axis=0)[0] for w, n in WALLS.items() if n in history}
     wall, gain = max(gains.items(), key=lambda one: float(one[1].sum()))
     given = float(gain.sum())
     return (float(gain @ np.abs(history.contact_positions(k))) / given, wall) if given > 0.0 else (None, None)

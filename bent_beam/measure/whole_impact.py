@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 from bent_beam.free_flight import LOWEST_PERIOD, acting, has_left
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
-from bent_beam.measure.reduction import moment_left_out, peak_moment, wall_peaks
+from bent_beam.measure.reduction import WALLS, moment_left_out, peak_moment, wall_peaks
 
 __all__ = ["SHORTEST_SEPARATION", "WINDOW", "Hit", "WholeImpact", "hits", "peak_times", "pushes", "whole_impact"]
 
@@ -264,8 +264,7 @@ def hits(history: ImpactHistory) -> list[Hit]:
     """All hits of a run, in order of time; the last may not be over yet."""
     impact, time = history.impact, history.time
     copies = 2.0 / history.sides
-    names = {"front": "impulse", "opposite": "opposite_impulse"}
-    rows = {wall: copies * history.array(name) for wall, name in names.items() if name in history}
+    rows = {wall: copies * history.array(name) for wall, name in WALLS.items() if name in history}
     parts = [(i, k, wall) for wall, given in rows.items() for i, k in pushes(time, given.sum(axis=1), 0.0)]
     work = history.energy("work_of_loads")
     energy = history.array("kinetic_energy") + history.array("strain_energy") - work + history.energy("contact_energy")
