@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 from bent_beam.history import ImpactHistory
 
 __all__ = [
-    "Moments", "first_front", "half_contact_length", "lift", "local_front", "mean_reaction", "moments",
-    "one_side", "unresolved_at_end", "unsure",
+    "Moments", "element_at", "first_front", "half_contact_length", "jump_of_rim", "lift", "local_front",
+    "mean_reaction", "moments", "one_side", "unresolved", "unresolved_at_end", "unsure",
 ]  # fmt: skip
 
 Array = NDArray[np.float64]
@@ -241,7 +241,7 @@ def half_contact_length(history: ImpactHistory, k: int) -> float | None:
     return float(np.median(rims)) if rims.size else None
 
 
-def _jump_of_rim(history: ImpactHistory, k: int) -> float:
+def jump_of_rim(history: ImpactHistory, k: int) -> float:
     """How far the rim jumps about instant ``k``, m, where the median of :func:`half_contact_length` may as well be the
     next interval's; 0 where it moves on by less than :data:`JUMP` of itself."""
     rims = np.sort(_rims(history, k))
@@ -277,23 +277,23 @@ def unsure(history: ImpactHistory, k: int, front: float | None, bent: float | No
     if front is None:
         return 0.0
     if bent is None:
-        return max(_element_at(history, k, front), _jump_of_rim(history, k))
-    return max(UNSURE * bent, _unresolved(history, k, front))
+        return max(element_at(history, k, front), jump_of_rim(history, k))
+    return max(UNSURE * bent, unresolved(history, k, front))
 
 
-def _unresolved(history: ImpactHistory, k: int, front: float) -> float:
+def unresolved(history: ImpactHistory, k: int, front: float) -> float:
     """Length, m, of the elements of which a front at ``front`` m has passed less than :data:`FEW`; 0 of others."""
-    element = _element_at(history, k, front)
+    element = element_at(history, k, front)
     return element if front < FEW * element else 0.0
 
 
 def unresolved_at_end(history: ImpactHistory, found: Moments) -> float:
     """The same at the last instant, l*."""
     length = history.impact.length_scale
-    return _unresolved(history, -1, float(found.front[-1]) * length) / length
+    return unresolved(history, -1, float(found.front[-1]) * length) / length
 
 
-def _element_at(history: ImpactHistory, k: int, place: float) -> float:
+def element_at(history: ImpactHistory, k: int, place: float) -> float:
     """Length of the element at ``place`` from the first touch, m: a half length is no surer."""
     x = history.positions(k)
     at = min(max(int(np.searchsorted(x, history.impact.first_touch + place)), 1), x.size - 1)
