@@ -116,10 +116,8 @@ class ImpactHistory:
     def until(self, time: float) -> ImpactHistory:
         """The same up to the saved instant nearest to ``time``, s."""
         last = int(np.argmin(np.abs(self.time - time)))
-        kept = {
-            n: v._replace(values=v.values[: last + 1]) if "time" in v.dims else v for n, v in self.variables.items()
-        }
-        return replace(self, variables=kept)  # time is the first dimension
+        cut = {n: v._replace(values=v.values[: last + 1]) for n, v in self.variables.items() if "time" in v.dims}
+        return replace(self, variables={**self.variables, **cut})  # time is the first dimension
 
     def described(self, title: str, section: Section | None) -> ImpactHistory:
         """The same that knows the title of its case, and its section, for stresses."""
