@@ -219,20 +219,17 @@ def _grouped(contacts: list[tuple[int, int, str]], impact: Impact, time: Array) 
     return groups
 
 
-def _arrives(impact: Impact) -> float:
-    """Velocity of the centre of mass of a free beam at the first touch, m/s: V₀ + c₀x²/2 and its rotation, averaged."""
-    places = np.array([-impact.half_length, 0.0, impact.half_length]) - impact.first_touch
-    return float(impact.free_motion(0.0)(places, by_t=1) @ (1.0, 4.0, 1.0)) / 6.0  # Simpson's rule is exact
-
-
 def _velocity(history: ImpactHistory, k: int, time: float) -> float:
     """Velocity of the centre of mass into the wall at saved instant ``k``, or at ``time``, s, before it and after its
     last push, m/s."""
     impact, x = history.impact, history.positions(k)
     if impact.supported:  # by forces that no history holds
         return float(np.trapezoid(history.array("velocity", k), x) / (x[-1] - x[0]))
+    places = np.array([-impact.half_length, 0.0, impact.half_length]) - impact.first_touch
+    # V₀ + c₀x²/2 and the rotation, averaged: Simpson's rule is exact
+    arrives = float(impact.free_motion(0.0)(places, by_t=1) @ (1.0, 4.0, 1.0)) / 6.0
     gained = impact.load_within(impact.half_length) * time - float(history.array("total_impulse")[k])
-    return _arrives(impact) + gained / (impact.mass_per_length * impact.length)
+    return arrives + gained / (impact.mass_per_length * impact.length)
 
 
 @dataclass(frozen=True)
