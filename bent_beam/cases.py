@@ -7,6 +7,7 @@ the paths are kept as data: :meth:`Case.method` makes the method of a path from 
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import math
 import re
@@ -218,10 +219,8 @@ def value_of(text: str, name: str = "") -> Any:
         number = re.fullmatch(r"([-+]?)(\d*)\.(\d*)", text)  # .9 and 9. are none in TOML
         if number and number[2] + number[3]:
             text = f"{number[1]}{number[2] or 0}.{number[3] or 0}"
-        try:
+        with contextlib.suppress(ValueError, RecursionError):
             value = tomllib.loads(f"value = {text}")["value"]
-        except (ValueError, RecursionError):
-            pass
     return value
 
 

@@ -33,10 +33,8 @@ def stamp(made_by: str) -> dict[str, Any]:
 
 def processor() -> str:
     """The processor's name as its maker gives it, where the system tells."""
-    try:
+    with contextlib.suppress(OSError):
         for line in Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines():
             if line.lower().startswith("model name"):
                 return line.partition(":")[2].strip()
-    except OSError:
-        pass
     return platform.processor() or platform.machine()
