@@ -62,8 +62,8 @@ def simulate_expanding(
     absorber took. Raises :class:`bent_beam.SimulationError` when the active set does not settle, the front leaves the
     fine mesh, or a number is no longer finite.
     """
-    given: Any = save
-    wanted = whole("save", given if np.ndim(save) == 0 else np.size(save), 2)
+    asked: tuple[str, Any] = ("the number of saved times", np.size(save)) if np.ndim(save) else ("save", save)
+    wanted = whole(*asked, 2)
     began = clock.perf_counter()
     try:
         run = Run(impact, mesh, end_time, wanted)
@@ -256,7 +256,7 @@ class Run:
     def warnings(self) -> list[str]:
         """What a reader of the result should know."""
         found, state, half_length = [], self.state, self.impact.half_length
-        reach = state.zeta[-1] * math.sqrt(self.end) * self.impact.length_scale
+        reach = state.zeta[-1] * math.sqrt(self.tau) * self.impact.length_scale
         moved = abs(state.front - self.front) / max(self.front, 2.0 / math.sqrt(1.0 + self.front**2))  # its thickness
         if reach > half_length:
             found.append(

@@ -132,7 +132,7 @@ class DroppedBar:
     def impulse(self, times: ArrayLike) -> FloatArray:
         """∫r."""
         v, g, T = self.landing_speed, self.gravity, self.contact
-        count, age = np.divmod(np.asarray(times, dtype=np.float64) - self.flight / 2.0, T + self.flight)
+        count, age = np.divmod(placed(0.0, times)[1] - self.flight / 2.0, T + self.flight)
         t = np.clip(age, 0.0, T)
         forward, backward = v * t + g * t**2 / 2.0, v * t + g * (T * t - t**2 / 2.0)
         one = np.where(count % 2.0 == 0.0, forward, backward)

@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 from scipy.optimize import brentq
 
+from bent_beam.checks import positive
 from theory._fresnel import FloatArray
 from theory.elastic_wall import largest
 
@@ -36,6 +37,10 @@ class SwungBeam:
     angular_velocity: float
     stop_stiffness: float
     modes: int = MODES
+
+    def __post_init__(self) -> None:
+        for name, value in vars(self).items():
+            positive(name, value)
 
     def tip(self, end: float) -> tuple[FloatArray, FloatArray]:
         """Times from 0 to ``end``, s, and the displacement of the end of the beam into the stop then, m."""
