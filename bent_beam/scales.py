@@ -31,7 +31,7 @@ class Scales(Part):
     curvature_rate: Annotated[float, Load("1/(m s)", "c₀ = ∂³y₀/∂x²∂t", group="chi", powers=(2, 1))] = 0.0
     fourth_derivative: Annotated[float, Load("1/m³", "q₀ = ∂⁴y₀/∂x⁴", group="psi", powers=(4, 0))] = 0.0
     section_height: Annotated[
-        float, Quantity("m", "d, for EA = 12 EI/d² on the Exudyn path; from the [section]", above=0.0)
+        float, Quantity("m", "d, for EA = 12 EI/d² on the Exudyn path; of a [section] √12 radii of gyration", above=0.0)
     ] = 0.01
     shear_stiffness: Annotated[
         float | None, Feature("N", "κ_sGA of Timoshenko's beam; Euler and Bernoulli's without", above=0.0,

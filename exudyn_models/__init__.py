@@ -1,4 +1,4 @@
-"""The Exudyn path: the beam of ANCF cable elements (or geometrically exact ones) against a rigid wall.
+"""The Exudyn path: the beam of ANCF cable elements (or geometrically exact ones) against a rigid or elastic wall.
 
 One call, every part a small frozen object that may be swapped or left to be chosen from the problem::
 

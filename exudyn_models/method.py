@@ -49,11 +49,11 @@ FIRST_ORDER_STEPS = 4.0  # so many times shorter steps: λ₁ of (−1, −1, 0)
 
 @dataclass(frozen=True)
 class ExudynModel(Part):
-    """Exudyn's cable or beam elements with contact against a rigid wall.
+    """Exudyn's cable or beam elements with contact against a rigid or elastic wall.
 
     The parts that are ``None`` are chosen for the problem (:mod:`exudyn_models.resolution`). The mesh is that of the
-    half beam, laid over the whole half length (a ``NodesMesh`` may end short of it). Unless the contact asks for
-    others, the other parts are: ANCF cable, generalised-α, nodal penalty, the linear limit, modified Newton.
+    half beam, laid over the whole half length (a ``NodesMesh`` may end short of it). Unless contact, shear or a whole
+    impact asks for others: ANCF cable, generalised-α, nodal penalty, the linear limit, modified Newton.
 
     label : how rows and curves call it.
     """

@@ -2,8 +2,8 @@
 
 `contact_parameters` solves the contact point, `ImpactFields` gives the beam around it, `SelfSimilarWave` the leading
 order in closed form, `peak_moment` its largest bending moment, and `predict` gives them for a physical
-impact with their range. The kernel is in `theory.kernel`, the φ functions in `theory.phi`. No number here comes from
-a simulation.
+impact with their range. The kernel is in `theory.kernel`, the φ functions in `theory.phi`. No answer here comes from
+a simulation; two bounds of its range do (how long shear is felt, how much damping of a beam's own a wall's law bears).
 """
 
 from theory.contact import ContactParameters, contact_parameters

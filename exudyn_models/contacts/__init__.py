@@ -1,4 +1,5 @@
-"""Contact with the rigid wall: each a small file; ``CONTACTS`` names them for ``[exudyn.contact]``."""
+"""Contact with a rigid wall, which ``CONTACTS`` names for ``[exudyn.contact]``; the springs of an elastic wall stand
+beside the penalty."""
 
 from exudyn_models.contacts.base import Contact, ContactRun, Wall
 from exudyn_models.contacts.penalty import Penalty, Springs

@@ -6,7 +6,7 @@ there.
 
 Which captured nodes are held, and until when (:class:`HeldStrip`): what the node impacts of the first instants, which
 no mesh resolves, leave behind would lift the zone for a long time. So all captured nodes are held for a first share
-``START`` of the run, but not in runs that last longer than the first spread, nor where load or damping draws the beam
+``START`` of the run, but not in runs that last longer than the first spread, nor where load, damping or shear draws the beam
 off the wall or it touches in a point: a held start makes the largest moment 5 % too large at κ/ν = 0.32 with ζ = 0.2 %,
 15 % at 1.2. Behind the front the exact reaction vanishes; a one-sided law turns the numerical noise there into pushes
 that lift the beam. A ``hold`` of so many elements keeps each captured node until the front is that much further. It too
@@ -47,7 +47,7 @@ class Wall:
     lengths : of the beam's elements before the wall, 0 of others, (elements,); all are 0 before a stop;
     half : only x ≥ 0 is modelled;
     first_spread : until when (in end times) no wave is back from the ends, and the zone spreads by itself;
-    lifts : load or damping lifts the zone from the first, or the beam touches in a point: no start is held;
+    lifts : load, damping or shear lifts the zone from the first, or the beam touches in a point: no start is held;
     plastic : share, 0 to 1, of the damping that keeps nodes from rebounding at a thin front, of a zone that spreads for
         the first time; 0 elsewhere;
     """
