@@ -6,11 +6,11 @@ there.
 
 Which captured nodes are held, and until when (:class:`HeldStrip`): what the node impacts of the first instants, which
 no mesh resolves, leave behind would lift the zone for a long time. So all captured nodes are held for a first share
-``START`` of the run, but not in runs that last longer than the first spread, nor where load, damping or shear draws the beam
-off the wall or it touches in a point: a held start makes the largest moment 5 % too large at κ/ν = 0.32 with ζ = 0.2 %,
-15 % at 1.2. Behind the front the exact reaction vanishes; a one-sided law turns the numerical noise there into pushes
-that lift the beam. A ``hold`` of so many elements keeps each captured node until the front is that much further. It too
-ends with the first spread: then waves from the ends are back, and may lift what they will.
+``START`` of the run, but not in runs that last longer than the first spread, nor where load, damping or shear draws the
+beam off the wall or it touches in a point: a held start makes the largest moment 5 % too large at κ/ν = 0.32 with ζ =
+0.2 %, 15 % at 1.2. Behind the front the exact reaction vanishes; a one-sided law turns the numerical noise there into
+pushes that lift the beam. A ``hold`` of so many elements keeps each captured node until the front is that much further.
+It too ends with the first spread: then waves from the ends are back, and may lift what they will.
 """
 
 from __future__ import annotations
