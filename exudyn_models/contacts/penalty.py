@@ -181,7 +181,7 @@ class Penalty(Contact):
         float | None,
         Quantity(
             "", "first share of the run in which all captured nodes are held", least=0.0, most=START,
-            absent=f"{START:g}; 0: load, damping or shear lifts the zone, front is thin, waves are back, explicit steps",
+            absent=f"{START:g}; 0: loads, damping or shear lift the zone, thin front, waves are back, explicit steps",
         ),
     ] = None  # fmt: skip
 
