@@ -22,8 +22,10 @@ from comparison.runs import Runs
 from comparison.texts import bounce_text
 from comparison.whole_numbers import WHOLE
 
-__all__ = ["Bounce", "documents", "scales", "with_stress"]
+__all__ = ["OF_WHOLE", "Bounce", "documents", "scales", "with_stress"]
 
+OF_WHOLE = ("restitution", "peak_moment", "peak_stress", "peak_force")
+"""What is said of a whole impact where it is not all that is asked."""
 LYING = 5.0  # times the largest push or moment: the end for a beam that does not leave
 MARGIN = 1.15  # times the last contact, or the largest value: the end of the axes
 
@@ -52,8 +54,7 @@ class Bounce:
         """The whole impact at each damping ratio where none was stated, SI, JSON-ready; ``None`` where one was."""
         if self.over is None:
             return None
-        names = ("restitution", "peak_moment", "peak_stress", "peak_force")
-        return [{"damping_ratio": ratio, **documents(one.in_si, names)} for ratio, one in self.over.items()]
+        return [{"damping_ratio": ratio, **documents(one.in_si, OF_WHOLE)} for ratio, one in self.over.items()]
 
     @cached_property
     def outcome(self) -> WholeImpact:
@@ -85,9 +86,7 @@ class Bounce:
     @cached_property
     def history(self) -> ImpactHistory:
         """Of the run itself; simulated again where a store keeps its reading alone."""
-        if self.runs.history is not None:
-            return self.runs.history
-        return self.runs.question.run(self.runs.question.run_by)
+        return self.runs.history or self.runs.question.run(self.runs.question.run_by)
 
     @property
     def units(self) -> dict[str, float]:
@@ -110,7 +109,7 @@ class Bounce:
     @property
     def balance(self) -> Balance:
         """Momentum, energy and contact of the run itself, read from its state."""
-        return Balance(**self.runs.run.reading["balance"])
+        return self.runs.balance
 
     @property
     def warnings(self) -> list[str]:
@@ -131,17 +130,16 @@ class Bounce:
                 f"the beam has {own} of its own: the outcome is irregular and does not converge, so a band is "
                 "given; state a damping for numbers"
             )
-        if not self.left:
-            pressed = self.impact.net_load > 0.0
-            why = "the loads keep the beam on the wall" if pressed else "a run ended with the beam at the wall"
-            short = f"flights shorter than {1e3 * LOWEST_PERIOD * self.units['time']:.3g} ms are part of a hit"
-            hint = (
-                f" ({short}; for that of the impact alone give impact.velocity and no load that presses)"
-                if pressed
-                else ""
+        pressed, stays = self.impact.net_load > 0.0, "it has not left the wall for good, so no restitution is given"
+        if not self.left and pressed:
+            found.append(
+                f"the loads keep the beam on the wall: {stays} (flights shorter than "
+                f"{1e3 * LOWEST_PERIOD * self.units['time']:.3g} ms are part of a hit; for that of the impact alone "
+                "give impact.velocity and no load that presses)"
             )
-            found.append(f"{why}: it has not left the wall for good, so no restitution is given{hint}")
-        elif self.impact.net_load > 0.0:
+        elif not self.left:
+            found.append(f"a run ended with the beam at the wall: {stays}")
+        elif pressed:
             found.append(
                 "the loads bring the beam back to the wall; these numbers are those of the first hit, later ones may "
                 "be larger: bentbeam bounce --hits 3 lists three"

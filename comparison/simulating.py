@@ -18,7 +18,7 @@ from bent_beam.measure.moments import lift, moments, unresolved_at_end
 from bent_beam.measure.numbers import MISSING, Number
 from bent_beam.measure.reduction import hold_of, pull_of
 from bent_beam.measure.whole_impact import hits
-from comparison.bounced import Bounce, scales
+from comparison.bounced import OF_WHOLE, Bounce, scales
 from comparison.bouncing import whole_numbers, whole_reading
 from comparison.doubts import (
     comparable,
@@ -38,8 +38,6 @@ from theory.validity import ENDS
 __all__ = ["Simulated", "simulate_case"]
 
 BAND = "without damping a whole impact is a band, which bentbeam bounce gives; one run has no number of it"
-OF_WHOLE = ("restitution", "peak_moment", "peak_stress", "peak_force")
-"""Numbers of a run to separation that are those of the whole impact, as ``bounce`` has them."""
 
 
 @dataclass(frozen=True)
