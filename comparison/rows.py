@@ -155,8 +155,7 @@ class MatchRow:
 
     def to_dict(self) -> dict[str, Any]:
         """JSON-ready, a number as ``{"value", "error", "theory"}``."""
-        found = {name: getattr(self, name) for name in self.__dataclass_fields__}
-        return {name: one.compared() if isinstance(one, Number) else one for name, one in found.items()}
+        return {name: one.compared() if isinstance(one, Number) else one for name, one in vars(self).items()}
 
     def compared(self) -> dict[str, Number]:
         """The numbers that this row is about."""

@@ -55,10 +55,8 @@ def check_writable(out: Path | None, *, folder: bool) -> None:
 
 def default_store() -> Path:
     """``$BENTBEAM_STORE``, or the user's cache folder."""
-    given = os.environ.get("BENTBEAM_STORE")
-    if given:
-        return Path(given)
-    return Path(platformdirs.user_cache_dir("bent-beam-impact", appauthor=False)) / "runs"
+    usual = platformdirs.user_cache_path("bent-beam-impact", appauthor=False) / "runs"
+    return Path(os.environ.get("BENTBEAM_STORE") or usual)
 
 
 def _canonical(value: Any) -> str:
@@ -87,8 +85,7 @@ class RunStore:
             return compute()
         key = _digest(_canonical({"question": dict(question), "versions": versions(), "source": source_digest()}))
         file = self.folder / f"{key[:40]}.json"
-        kept = self._read(file)
-        if kept is not None:
+        if (kept := self._read(file)) is not None:
             return kept
         found = compute()
         with suppress(OSError, ValueError):  # a full cache, a value that JSON lacks: they cost time, not the answer
