@@ -110,16 +110,9 @@ def runs_of(
     told = progress or (lambda _: None)
     first, others = question.run_by, question.companions()
     share = 1.0 / (1 + len(others))
-    history: ImpactHistory | None = None
-
-    def simulate() -> ImpactHistory:
-        return question.run(first, progress=lambda part: told(share * part))
-
-    if whole_history or store is None:
-        history = simulate()
-        run = Run.of(history, read)
-    else:
-        run = kept(store, question.key(question.impact), first, read, simulate)
+    simulate = partial(question.run, first, progress=lambda part: told(share * part))
+    history = simulate() if whole_history or store is None else None
+    run = Run.of(history, read) if history else kept(store, question.key(question.impact), first, read, simulate)
     told(share)
     calls = [(store, question, read, method, impact) for impact, method in others.values()]
     how: dict[str, Any] = {"jobs": jobs, "on_death": lambda _, why: why}
