@@ -118,8 +118,7 @@ def predict(
     from comparison.predicting import predict_case  # SciPy: no refusal above waits for it
 
     with progress(f"the whole beam: {case.name}", quiet or as_json or theory_only) as bar:
-        how = {"theory_only": theory_only, "store": RunStore.usual(fresh), "progress": bar.fraction}
-        found = predict_case(loaded, times, **how)  # type: ignore[arg-type]
+        found = predict_case(loaded, times, theory_only=theory_only, store=RunStore.usual(fresh), progress=bar.fraction)
     emit(found.to_dict(), as_json, lambda: str(found))
     if out is not None:
         found.write(out)  # after the answer, which a full disk must not cost
@@ -159,10 +158,10 @@ def simulate(
     from comparison.simulating import simulate_case  # SciPy: no refusal above waits for it
     from comparison.texts import run_text
 
-    how = {"until": loaded.end_time if until is None else None, "save": save, "error_bars": error_bars}
+    end = loaded.end_time if until is None else None
     try:
         with progress(f"{path}: {case.name}", quiet) as bar:
-            found = simulate_case(loaded, path, **how, progress=bar.fraction)  # type: ignore[arg-type]
+            found = simulate_case(loaded, path, until=end, save=save, error_bars=error_bars, progress=bar.fraction)
     except SimulationError as error:
         raise _kept(error, out) from None
     problem = None
