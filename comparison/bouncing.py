@@ -9,7 +9,6 @@ the largest stress.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
@@ -24,7 +23,7 @@ from bent_beam.measure.whole_impact import Hit, hits, whole_impact
 from bent_beam.method import Method, for_whole_beam, separation_times
 from comparison.bounced import Bounce
 from comparison.doubts import energy_at_end
-from comparison.questions import Question
+from comparison.questions import Progress, Question
 from comparison.runs import Runs, bands_of, numbers_of, runs_of, unseen_of_moment
 from comparison.store import RunStore
 from comparison.whole_numbers import FINAL, NUMBERS
@@ -71,7 +70,7 @@ def bounce(
     save: int | None = None,
     store: RunStore | None = None,
     jobs: int = 1,
-    progress: Callable[[float], None] | None = None,
+    progress: Progress | None = None,
 ) -> Bounce:
     """Follow a beam to its last separation by ``method``, and by what it names to compare with; where the case states
     no damping, over :data:`DAMPING_RATIOS`.
@@ -103,7 +102,7 @@ def bounce(
     return Bounce(case, whole_numbers(made), made)
 
 
-def _over_ratios(case: Case, method: Method, told: Callable[[float], None], how: dict[str, Any]) -> Bounce:
+def _over_ratios(case: Case, method: Method, told: Progress, how: dict[str, Any]) -> Bounce:
     """Of the damping ratio with the largest moment, next to the others."""
     found, share = dict[float, Bounce](), 1.0 / len(DAMPING_RATIOS)
     for i, ratio in enumerate(DAMPING_RATIOS):

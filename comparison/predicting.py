@@ -7,7 +7,7 @@ and ``bounce`` ask (:mod:`comparison.questions`).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from functools import partial
 from itertools import groupby
@@ -28,7 +28,7 @@ from bent_beam.tables import in_keys
 from comparison.bounced import Bounce, documents, with_stress
 from comparison.bouncing import bounce
 from comparison.doubts import doubts, energy_at_end, wide_bars
-from comparison.questions import Question
+from comparison.questions import Progress, Question
 from comparison.readable import milliseconds, write_answer
 from comparison.runs import Runs, numbers_of, runs_of, unseen_of_moment
 from comparison.store import RunStore
@@ -50,8 +50,6 @@ AGREE = 0.02  # of the theory's number, beyond the error bar
 LATEST = 20.0  # T*: later times are not simulated
 ROUND_OFF = 1e-9  # of the mean force so far: less is none
 VISCOSITY = 2e-3  # of an early number: what grid viscosity and start do to a run and its companion alike
-
-Progress = Callable[[float], None]
 
 
 def instants_reading(times: tuple[float, ...], first_spread: bool, history: ImpactHistory) -> dict[str, Any]:

@@ -25,7 +25,6 @@ from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam import ImpactHistory, InputError
 from bent_beam.checks import one_of
@@ -34,9 +33,10 @@ from bent_beam.impact import BEFORE_WAVES_RETURN, Impact
 from bent_beam.measure.instant import BEYOND
 from bent_beam.method import Method, for_whole_beam, refined, simulate_to_separation, simulated
 
-__all__ = ["ERROR_BARS", "Question"]
+__all__ = ["ERROR_BARS", "Progress", "Question"]
 
-Array = NDArray[np.float64]
+Progress = Callable[[float], None]
+"""Called with the finished fraction."""
 EARLY = 0.003  # T*
 COARSER, FINER = 0.5, 2.0
 DRAWN, SEED = 5, 15  # runs of an ensemble at a time, without damping
@@ -84,10 +84,8 @@ class Question:
         """Whether it is about the first spread of a zone about the middle of a beam before a rigid wall, which pushes
         at its rim: where the beam shears, the force acts behind the rim."""
         impact = self.impact
-        if impact.shear_stiffness is not None:
-            return False
-        other = impact.wall_stiffness is not None or impact.off_centre or impact.wall_in_part or impact.supported
-        return not other and not self.late
+        gives_way = impact.shear_stiffness is not None or impact.wall_stiffness is not None
+        return not (gives_way or impact.off_centre or impact.wall_in_part or impact.supported or self.late)
 
     @property
     def run_by(self) -> Method:
@@ -164,9 +162,7 @@ class Question:
             found.append(one)
         return found
 
-    def run(
-        self, method: Method, impact: Impact | None = None, progress: Callable[[float], None] | None = None
-    ) -> ImpactHistory:
+    def run(self, method: Method, impact: Impact | None = None, progress: Progress | None = None) -> ImpactHistory:
         """The run of ``method``, as chosen; of another ``impact`` for a companion."""
         beam = self.impact if impact is None else impact
         if self.until is None:

@@ -18,7 +18,7 @@ from bent_beam.measure.balance import Balance
 from bent_beam.measure.numbers import FACTOR, Band, Number, number_of
 from bent_beam.method import Method, settings_of
 from comparison.doubts import loss_warnings
-from comparison.questions import SHORT, Question
+from comparison.questions import SHORT, Progress, Question
 from comparison.store import RunStore, code_of, source_of
 from comparison.workers import run_all
 
@@ -29,8 +29,8 @@ LIGHT = 3e-4  # η/T* below which a beam has hardly any damping …
 LEAST_LIGHT = 1e-3  # … and its late numbers this least bar, for the same reason
 CHATTER = 0.01  # of the largest moment: what single nodes add to it on a zone of hardly any damping
 Reading = Callable[[ImpactHistory], dict[str, Any]]
-"""What it returns is JSON-ready and holds the ``energy`` at the end and the ``balance``."""
-Progress = Callable[[float], None]
+"""A function of a module, or a ``partial`` of one with JSON-ready positional arguments. What it returns is JSON-ready
+and holds the ``energy`` at the end and the ``balance``."""
 
 
 @dataclass(frozen=True)
@@ -101,8 +101,7 @@ def runs_of(
 ) -> Runs:
     """Run ``question`` and its companions, or find them in ``store``.
 
-    read : picklable, a function or a ``partial`` of positional arguments. whole_history : also the history of the run
-        itself, which is then made anew.
+    whole_history : also the history of the run itself, which is then made anew.
     Raises ``ValueError`` for what the method refuses, :class:`bent_beam.SimulationError` where the run cannot finish.
     """
     if reason := question.method.refuses(question.impact):
@@ -127,8 +126,7 @@ def kept(
 ) -> Run:
     """What ``read`` makes of ``run()``, or the same from ``store``.
 
-    asked : what the run depends on next to its ``method`` and the code of that, JSON-ready. read : a function of a
-        module, or a ``partial`` of one with JSON-ready positional arguments.
+    asked : what the run depends on next to its ``method`` and the code of that, JSON-ready.
     """
     if store is None:
         return Run.of(run(), read)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -30,7 +29,7 @@ from comparison.doubts import (
     wide_bars,
 )
 from comparison.predicting import instants_reading, numbers_at
-from comparison.questions import Question
+from comparison.questions import Progress, Question
 from comparison.runs import Runs, runs_of
 from theory import Prediction, predict
 from theory.validity import ENDS
@@ -133,7 +132,7 @@ def simulate_case(
     until: float | None,
     save: int | None = None,
     error_bars: str = "quick",
-    progress: Callable[[float], None] | None = None,
+    progress: Progress | None = None,
 ) -> Simulated:
     """Follow ``case`` to ``until`` (s; ``None``: to the last separation) with the method of ``path``.
 
