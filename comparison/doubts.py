@@ -10,7 +10,7 @@ from typing import Any
 from bent_beam.history import LOSSES, ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.loads import unmodelled
-from bent_beam.measure.numbers import Number
+from bent_beam.measure.numbers import MISSING
 from bent_beam.section import Section
 from comparison.whole_numbers import WHOLE
 
@@ -118,10 +118,8 @@ def wide_bars(numbers: Mapping[str, Any]) -> list[str]:
     """A warning of the numbers whose error bars are wide; a band is none, nor is a half length of 0, of one point."""
     wide = []
     for name, title in MAY_BE_WIDE.items():
-        number, least = numbers.get(name), LEAST_RESTITUTION if name == "restitution" else 0.0
-        one_point = name == "half_contact_length" and number is not None and number.value == 0.0
-        if not isinstance(number, Number) or number.value is None or number.bar is None or one_point:
-            continue
-        if number.bar > WIDE * max(abs(number.value), least):
+        number, least = numbers.get(name, MISSING), LEAST_RESTITUTION if name == "restitution" else 0.0
+        known = number.value is not None and not (name == "half_contact_length" and number.value == 0.0)
+        if known and (number.bar or 0.0) > WIDE * max(abs(number.value), least):
             wide.append(title)
     return [f"wide error bars: {', '.join(wide)}; elements, steps and contact law decide here"] if wide else []
