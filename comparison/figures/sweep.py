@@ -45,7 +45,7 @@ def sweep_figure(found: SweepTable) -> Any:
         style.label_panels(*axes[0])
         fig.suptitle(found.title or "Sweep", fontsize=9.0)
         handles, names = axes[0, 0].get_legend_handles_labels()
-        note, sizes = _note(found, mapped), {"fontsize": 7.0, "title_fontsize": 7.0}
+        note, sizes = _note(found, shown[0] if mapped else None), {"fontsize": 7.0, "title_fontsize": 7.0}
         fig.legend(handles, names, loc="outside lower center", ncols=4, title=note, **sizes)
         return fig
 
@@ -101,17 +101,16 @@ def _curves(axis: Any, found: SweepTable, name: str) -> None:
         style.bars(axis, x[order], values[order, i], bars[order, i], look)
     highest = float(np.nanmax(values + bars))
     axis.set(xlabel=label, ylabel=title, ylim=(min(0.0, 1.08 * float(np.nanmin(values - bars))), 1.08 * highest))
-    limit = _yield_stress(found)
-    if name == "peak_stress" and limit is not None:
+    if (limit := _yield_stress(found, name)) is not None:
         style.yield_line(axis, 1e-6 * limit, highest)
     if not joined:
         axis.set_xticks(x, [str(value) for value in found.vary[keys[0]]])
 
 
-def _yield_stress(found: SweepTable) -> float | None:
-    """Of the material, where it is one for all rows."""
+def _yield_stress(found: SweepTable, name: str) -> float | None:
+    """Of the material, where stresses are drawn and it is one for all rows."""
     limits = {row.yield_stress for row in found.rows if row.numbers}
-    return limits.pop() if len(limits) == 1 else None
+    return limits.pop() if name == "peak_stress" and len(limits) == 1 else None
 
 
 def _map(axis: Any, found: SweepTable, name: str) -> None:
@@ -128,8 +127,7 @@ def _map(axis: Any, found: SweepTable, name: str) -> None:
         lines = axis.contour(*smooth, field.levels, colors="black", linewidths=0.4)
         axis.clabel(lines, fontsize=6.5, fmt="%g")
         axis.figure.colorbar(field, ax=axis, label=title)
-        limit = _yield_stress(found)
-        if name == "peak_stress" and limit is not None and shown.min() < 1e-6 * limit < shown.max():
+        if (limit := _yield_stress(found, name)) is not None and shown.min() < 1e-6 * limit < shown.max():
             axis.contour(*smooth, [1e-6 * limit], colors=style.COLOURS["vermilion"], linewidths=1.8)
     every = np.stack(np.meshgrid(x, y), axis=-1)
     loud = bars > LOUD * np.abs(z)
@@ -151,18 +149,18 @@ def _between(x: Any, y: Any, z: Any) -> tuple[Any, Any, Any]:
     return *fine, PchipInterpolator(y, PchipInterpolator(x, z, axis=1)(fine[0]), axis=0)(fine[1])
 
 
-def _note(found: SweepTable, mapped: bool) -> str:
-    """What the marks mean; of a map, how wide the bars are that it cannot show."""
+def _note(found: SweepTable, mapped: str | None) -> str:
+    """What the marks mean; of a map, how wide the bars of the number ``mapped`` first are, which it cannot show."""
     lost = sum(1 for row in found.rows if not row.numbers)
     missing = f" {lost} of {len(found.rows)} rows have no number." if lost else ""
-    if not mapped:
+    if mapped is None:
         return f"Bars: error bars.{missing}"
-    name = next(n for n in SHOWN if any(_values(found, n)))
-    shares = [abs(pair[1] / pair[0]) for pair in _values(found, name) if pair and pair[0]]
-    wide = f"Error bars of the {WHOLE[name].heading}: {100 * float(np.median(shares)):.2g} % (median), at most "
-    limit, highest = _yield_stress(found), max(pair[0] for pair in _values(found, name) if pair)
+    pairs = [pair for pair in _values(found, mapped) if pair]
+    shares = [abs(bar / value) for value, bar in pairs if value]
+    wide = f"Error bars of the {WHOLE[mapped].heading}: {100 * float(np.median(shares)):.2g} % (median), at most "
     line = ""
-    if name == "peak_stress" and limit is not None:
+    if (limit := _yield_stress(found, mapped)) is not None:
+        highest = max(value for value, _ in pairs)
         where = "Red line: the material yields" if highest > limit else "Nowhere does the material yield"
         line = f" {where}, {1e-6 * limit:.4g} MPa."
     marks = f"Dots: rows, interpolated between; rings: bar above {100 * LOUD:g} %."
