@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from bent_beam import Case, ImpactHistory
-from bent_beam.measure.numbers import Band, Number
+from bent_beam.measure.numbers import MISSING, Band, Number
 from comparison.doubts import comparable
 from comparison.figures import style
 from comparison.figures.panels import contacts, draw_force, draw_wall, heights, impulse_given, sheet
@@ -86,24 +86,20 @@ def impact_figure(history: ImpactHistory, case: Case, numbers: Mapping[str, Numb
     """A run of a case on one sheet. numbers : SI, by name, for what is marked; end : s, of the axes."""
     impact, section, limit = history.impact, case.section, None if case.section is None else case.section.yield_stress
     largest, _, unit = largest_of(section)
-    marked: dict[str, Any] = {
-        "force": _words(numbers.get("peak_force"), "N"),
-        "stress": _words(numbers.get(largest), unit),
-    }
+    force, stress = _words(numbers.get("peak_force", MISSING), "N"), _words(numbers.get(largest, MISSING), unit)
     groups = rf"$\kappa/\nu$ = {impact.kappa_over_nu:.4g}, $\eta/T^*$ = {impact.relative_damping:.3g}"
     groups += rf", $T^*$ = {1e3 * impact.slow_time_scale:.4g} ms"
     known = history.described(case.title, section)
-    return sheet(known, case.title or groups, min(end, float(history.time[-1])), **marked, yield_stress=limit)
+    end = min(end, float(history.time[-1]))
+    return sheet(known, case.title or groups, end, force=force, stress=stress, yield_stress=limit)
 
 
-def _words(number: Number | Band | None, unit: str) -> str:
-    """A largest value beside its mark."""
-    if number is None or not (isinstance(number, Band) or number.measured):
-        return ""
+def _words(number: Number | Band, unit: str) -> str:
+    """A largest value beside its mark; nothing where there is none."""
     value, written = in_unit(number, unit)
     if isinstance(number, Band):
         return f"largest {value.partition(' (')[0]} {written}, band of {number.runs} runs"
-    return f"largest {value} {written}"
+    return f"largest {value} {written}" if number.measured else ""
 
 
 def animate(history: ImpactHistory, file: Path, end: float) -> Path:
