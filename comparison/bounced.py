@@ -90,7 +90,7 @@ class Bounce:
 
     @property
     def units(self) -> dict[str, float]:
-        """SI units of the numbers (:func:`scales`); shares of energy are of what the loads have worked, too."""
+        """SI units of the numbers (:func:`scales`); of an energy the initial one and the work of the loads, J."""
         return scales(self.impact) | {"energy": self.outcome.supplied}
 
     @property
@@ -218,13 +218,12 @@ class Bounce:
 
 
 def scales(impact: Impact) -> dict[str, float]:
-    """SI units of the dimensionless numbers: N s, s, N m, J, m, N."""
+    """SI units of the dimensionless numbers: N s, s, N m, m, N."""
     impulse = impact.mass_per_length * impact.half_length * impact.velocity
     return {
         "impulse": impulse,
         "time": impact.slow_time_scale,
         "moment": impact.velocity * math.sqrt(impact.bending_stiffness * impact.mass_per_length),
-        "energy": impulse * impact.velocity,
         "length": impact.half_length,
         "force": impulse / impact.slow_time_scale,
     }

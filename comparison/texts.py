@@ -196,7 +196,7 @@ def bounce_text(found: dict[str, Any], *, verbose: bool = False) -> str:
     for name, about in WHOLE.items():
         document = found["energy"].get(name) or found.get(name)
         other = name == "push" and found.get("peak_force") is not None  # of a wall that gives way its force is given
-        if document is None or other or not about.title or (about.more and not verbose):
+        if document is None or other or (about.more and not verbose):
             continue
         within = f" {milliseconds(found['push_window'])}" if name == "push" else ""
         number = number_from(document)

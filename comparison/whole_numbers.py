@@ -13,14 +13,14 @@ __all__ = ["BETWEEN_WALLS", "FINAL", "HIT", "NUMBERS", "OF_ONE_WALL", "WHOLE", "
 class WholeNumber(NamedTuple):
     """What is said of a number.
 
-    scale : its SI unit among those of the beam (:func:`comparison.bounced.scales`), empty where it has none; unit : the
-    name of that. title, heading : in the text of an answer and in a sweep's table, empty where it does not stand there.
+    scale : its SI unit among those of the beam (``Bounce.units``), empty where it has none; unit : the name of that.
+    title : in the text of an answer. heading : in a sweep's table, empty where it does not stand there.
     more : stands in the longer text alone. final : exists only once the beam has left.
     """
 
     scale: str
     unit: str
-    title: str = ""
+    title: str
     heading: str = ""
     more: bool = False
     final: bool = False
