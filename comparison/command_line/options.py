@@ -6,7 +6,7 @@ import logging
 import math
 import sys
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -160,13 +160,9 @@ class Bar:
 def progress(title: str, quiet: bool) -> Iterator[Bar]:
     """Progress on standard error, with the time that is left, and what paths log for the user; a bar on a terminal
     only, and nothing where ``quiet``."""
-    silent = Bar(lambda done: None)
-    if quiet:
-        yield silent
-        return
-    if not sys.stderr.isatty():
-        with notices(partial(print, file=sys.stderr)):
-            yield silent
+    if quiet or not sys.stderr.isatty():
+        with nullcontext() if quiet else notices(partial(print, file=sys.stderr)):
+            yield Bar(lambda done: None)
         return
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TimeElapsedColumn, TimeRemainingColumn
