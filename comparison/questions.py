@@ -11,11 +11,7 @@ scheme shows what the scheme does. Without damping late motion does not converge
 elements, steps and contact laws are drawn from a seed. Such a beam also keeps the short waves that its ends send back
 at once. Grid viscosity absorbs them in a run and in its coarser companion alike, and their difference does not show it:
 an early question has a companion more, without viscosity, on even elements. The same question gets the same numbers,
-from runs that are kept.
-
-A further cause of error is a companion here (another contact law: the method's ``cross_checks``), or, where no
-companion shows it, a known size: at a time in :mod:`comparison.predicting`, of a whole impact in
-:mod:`comparison.bouncing`.
+from runs that are kept. A cause of error that no companion shows is a known size (CONTRIBUTING.md says where).
 """
 
 from __future__ import annotations
