@@ -115,9 +115,8 @@ class PredictedCase:
         """The contract of ``bentbeam predict --json``."""
         document, whole = self.theory.to_dict(), self.whole
         rows = document["times"]
-        if self.simulated is not None:
-            for row, numbers in zip(rows, self.simulated):
-                row["simulation"] = {name: n.to_dict() for name, n in numbers.items() if name in COMPARED}
+        for row, numbers in zip(rows, self.simulated or ()):
+            row["simulation"] = {name: n.to_dict() for name, n in numbers.items() if name in COMPARED}
         holds = document["valid_until"]  # a beam whose damping is not stated has some, enough to absorb short waves
         force = document["force_until"] if self.case.damping_stated else holds
         for row in rows:
@@ -125,7 +124,7 @@ class PredictedCase:
                 row["reaction"] = None
         return document | {
             "force_until": force,
-            "times": rows[: len(rows) if self.simulated is None else len(self.simulated)],
+            "times": rows[: len(self.simulated or rows)],
             "model": self.case.impact.model,
             "velocity": self.case.impact.velocity,
             "warnings": self.warnings,
