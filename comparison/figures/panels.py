@@ -90,9 +90,7 @@ def draw_force(axis: Any, history: ImpactHistory, end: float, words: str = "") -
         _mark(axis, peaks.time, scale * largest, words or f"largest {scale * peaks.force:.4g} {unit}")
 
 
-def draw_stress(
-    axis: Any, history: ImpactHistory, end: float, words: str = "", yield_stress: float | None = None
-) -> None:
+def draw_stress(axis: Any, history: ImpactHistory, end: float, words: str, yield_stress: float | None) -> None:
     """Largest stress along the beam, without a section moment, over time; the largest is marked by ``words``."""
     stress, inside = history.stress, history.time <= end
     values, what, si = (history.moment, "moment", "N m") if stress is None else (stress, "stress", "Pa")
@@ -184,9 +182,9 @@ def _telling(history: ImpactHistory, end: float) -> Array:
     return np.interp(np.linspace(0.0, told[-1], SHAPES), told, time)
 
 
-def draw_shapes(axis: Any, history: ImpactHistory, end: float, reach: float | None = None) -> None:
+def draw_shapes(axis: Any, history: ImpactHistory, end: float, reach: float | None) -> None:
     """The beam above its wall at :func:`_telling` times until ``end``, s, the first on top: to scale along, heights by
-    a factor that is said. reach : half width that is shown, m; the whole beam unless given.
+    a factor that is said. reach : half width that is shown, m; ``None``: the whole beam.
 
     Lays the figure out, so that everything else must be on it.
     """

@@ -130,16 +130,13 @@ def _seconds(axis: Any, rows: Sequence[MatchRow]) -> None:
 
 
 def _line(axis: Any, rows: Sequence[MatchRow], what: str, mark: dict[str, Any]) -> None:
-    """One method over its refinements, with the error bars upwards."""
-    points = []
-    for row in sorted(rows, key=lambda r: r.refine):
-        value, bar = _read(row, what)
-        if value is not None and row.seconds:
-            points.append((row.seconds, max(value, SMALLEST), value + (bar or 0.0)))
+    """One method over its refinements, in their order, with the error bars upwards."""
+    read = [(row.seconds, *_read(row, what)) for row in rows]
+    points = [(s, max(v, SMALLEST), max(v + (bar or 0.0), SMALLEST)) for s, v, bar in read if v is not None]
     if not points:
         return
     seconds, values, tops = zip(*points)
-    axis.vlines(seconds, values, [max(v, t) for v, t in zip(values, tops)], color=mark["color"], lw=0.5, alpha=0.4)
+    axis.vlines(seconds, values, tops, color=mark["color"], lw=0.5, alpha=0.4)
     axis.plot(seconds, values, **{**mark, "ls": "-", "lw": 0.7})
 
 
