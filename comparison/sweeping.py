@@ -233,24 +233,18 @@ class SweepTable:
         lines = [text_table(head, body), "", kept]
         if any(row.until is not None for row in self.rows):
             lines.append("Between two walls or supports no separation is the last: numbers until the case's end time.")
-        lines += self._told("no numbers", [[row.reason] if row.reason else [] for row in self.rows])
-        lines += self._told("warning", [row.warnings for row in self.rows])
-        return "\n".join(lines)
+        said = [(f"no numbers: {row.reason}", row.name) for row in self.rows if row.reason]
+        said += [(f"warning: {text}", row.name) for row in self.rows for text in row.warnings]
+        told: dict[str, list[str]] = {}  # each sentence once, and of which rows it is
+        for text, name in said:
+            told.setdefault(text, []).append(name)
+        return "\n".join([*lines, *(f"{text} ({self._which(names)})" for text, names in told.items())])
 
-    def _told(self, what: str, sentences: Sequence[Sequence[str]]) -> list[str]:
-        """Each of the rows' sentences once, and of which rows it is."""
-        found: dict[str, list[int]] = {}
-        for number, texts in enumerate(sentences):
-            for text in texts:
-                found.setdefault(text, []).append(number)
-        return [f"{what}: {text} ({self._which(numbers)})" for text, numbers in found.items()]
-
-    def _which(self, numbers: Sequence[int]) -> str:
+    def _which(self, names: Sequence[str]) -> str:
         """Rows in words."""
-        if 1 < len(numbers) == len(self.rows):
+        if 1 < len(names) == len(self.rows):
             return "all rows"
-        first = self.rows[numbers[0]].name
-        return first if len(numbers) == 1 else f"{len(numbers)} rows, the first at {first}"
+        return names[0] if len(names) == 1 else f"{len(names)} rows, the first at {names[0]}"
 
 
 def numeric(values: Sequence[Any]) -> bool:
