@@ -6,7 +6,7 @@ Nothing here knows a path. A method simulates; its history is reduced to moments
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from functools import partial
 from typing import Any
@@ -167,16 +167,15 @@ def answer(question: MatchQuestion, store: RunStore, limit: float | None = None)
         warnings.append(f"wide error bar: λ₀ = {leading.lambda0}, r₀ = {leading.r0}")
     if estimate is not None and estimate.r1.spread > WIDE_FIRST * max(abs(estimate.r1.known), 1.0):
         warnings.append(f"wide error bar: r₁ = {estimate.r1}")
-    holds = [r.reading["hold"] for r in fine.runs if r.reading["hold"]]
-    names = ("pull", "momentum_residual", "gap_of_push")
-    checks: dict[str, Any] = {name: _largest(r.reading[name] for r in fine.runs) for name in names}
+    readings = [r.reading for r in fine.runs]
+    holds = [reading["hold"] for reading in readings if reading["hold"]]
     return MatchRow(
         **about(question),
         **with_theory(question, leading, estimate),
         peak_force=_peak_force(question, [one.runs[0] for one in (fine, *others)]),
         lift=leading.lift,
-        **checks,
-        hold={name: _largest(h[name] for h in holds) for name in ("until", "pull")} if holds else None,
+        **_largest(readings, "pull", "momentum_residual", "gap_of_push"),
+        hold=_largest(holds, "until", "pull") if holds else None,
         seconds=sum(r.seconds for r in fine.runs),
         steps=sum(r.steps for r in fine.runs),
         epsilons=list(estimate.epsilons) if estimate else [],
@@ -197,8 +196,8 @@ def _peak_force(question: MatchQuestion, runs: Sequence[Run]) -> Number:
     return number_of(force, {f"resolution_{i}": other for i, other in enumerate(coarser)}, theory=theory)
 
 
-def _largest(values: Iterable[float | None]) -> float | None:
-    return max((value for value in values if value is not None), default=None)
+def _largest(found: Sequence[dict[str, Any]], *names: str) -> dict[str, Any]:
+    return {name: max((one[name] for one in found if one[name] is not None), default=None) for name in names}
 
 
 def _attempt(question: MatchQuestion, store: RunStore, limit: float | None) -> MatchRow:
