@@ -30,6 +30,7 @@ from comparison.whole_numbers import FINAL, NUMBERS
 
 __all__ = ["DAMPING_RATIOS", "bounce", "case_of", "follow_hits", "problem", "whole_numbers", "whole_reading"]
 
+Beam = Case | Impact | str | Path
 TIMES = ("last_contact", "peak_moment_time")
 RUNS = 24  # of a band
 SEED = 15
@@ -52,7 +53,7 @@ def whole_reading(history: ImpactHistory) -> dict[str, Any]:
     return found | {"loss": history.settings.get("hysteretic_loss")}
 
 
-def case_of(beam: Case | Impact | str | Path) -> Case:
+def case_of(beam: Beam) -> Case:
     """A case, or that of a file, or of an impact whose damping is as it says. Raises ``InputError``."""
     if isinstance(beam, Case):
         return beam

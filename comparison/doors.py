@@ -9,14 +9,14 @@ from typing import Any
 
 import numpy as np
 
-from bent_beam import Impact, InputError
+from bent_beam import InputError
 from bent_beam.cases import Case, holds, lay_over, lay_values, read_toml
 from bent_beam.checks import shortened
 from bent_beam.files import write_atomically, write_dataset
 from bent_beam.method import Method, method_from_tables
 from comparison import bouncing
 from comparison.bounced import Bounce
-from comparison.bouncing import case_of
+from comparison.bouncing import Beam, case_of
 from comparison.matching import Matched
 from comparison.matching import match as match_all
 from comparison.methods import PATHS, check_effect
@@ -28,8 +28,6 @@ from comparison.sweeping import Row, SweepTable, cases_of, never_leaves, row_of,
 from comparison.workers import run_all
 
 __all__ = ["Swept", "bounce", "match", "predict", "sweep"]
-
-Beam = Case | Impact | str | Path
 
 
 def predict(beam: Beam, *times: float, theory_only: bool = False, fresh: bool = False) -> PredictedCase:
