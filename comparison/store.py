@@ -21,7 +21,7 @@ from importlib.metadata import distributions
 from pathlib import Path
 from typing import Any
 
-import platformdirs
+from platformdirs import user_cache_path
 
 from bent_beam.errors import InputError
 from bent_beam.files import write_atomically
@@ -55,7 +55,7 @@ def check_writable(out: Path | None, *, folder: bool) -> None:
 
 def default_store() -> Path:
     """``$BENTBEAM_STORE``, or the user's cache folder."""
-    usual = platformdirs.user_cache_path("bent-beam-impact", appauthor=False) / "runs"
+    usual = user_cache_path("bent-beam-impact", appauthor=False) / "runs"
     return Path(os.environ.get("BENTBEAM_STORE") or usual)
 
 
