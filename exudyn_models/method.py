@@ -8,7 +8,6 @@ The beam, its loads and its supports are laid out by :mod:`exudyn_models.assembl
 from __future__ import annotations
 
 import dataclasses
-import time as clock
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, Self
@@ -246,7 +245,7 @@ def simulate(
     end, method = impact.checked_end_time(end_time), ExudynModel(**parts)
     if reason := method.refuses(impact):
         raise InputError(reason)
-    targets, began, chosen = saved_times(save, end), clock.perf_counter(), method.chosen(impact, end)
+    targets, chosen = saved_times(save, end), method.chosen(impact, end)
     with quiet():
         stepping = Stepping(lay_out(impact, end, chosen), chosen, targets, progress, until)
         stepping.through(view)
@@ -255,7 +254,7 @@ def simulate(
     saved = targets[: stepping.saved] * end if stepping.left else np.asarray(save)  # what a rerun needs
     settings = {"end_time": end, "save": saved.tolist(), **stepping.settings_of_run()}
     history = stepping.run.history(
-        settings=settings | {"wall_seconds": clock.perf_counter() - began},
+        settings=settings,
         steps=stepping.steps,
         seconds=stepping.seconds,
         completed=stepping.failure is None,
