@@ -197,7 +197,10 @@ def predict_case(
         found[time] = runs_to(case, method, asked, store, lambda done, i=i: told(share * (i + done)))  # type: ignore[misc]
     simulated = [numbers_at(found.get(time), case) for time in times]
     # what runs say, but for their ends: the theory beside them says how long those do not matter
-    warnings += [line for runs in found.values() for line in runs.warnings if REFLECTED not in line]
+    said_by = {time: {line for line in runs.warnings if REFLECTED not in line} for time, runs in found.items()}
+    by_all = set.intersection(*said_by.values()) if said_by else set()
+    warnings += by_all
+    warnings += [f"to {milliseconds(time)}: {line}" for time, lines in said_by.items() for line in lines - by_all]
     warnings += [
         f"at {milliseconds(time)}: {line}" for time, numbers in zip(times, simulated) for line in wide_bars(numbers)
     ]

@@ -113,8 +113,8 @@ def largest_of(section: Any) -> tuple[str, str, str]:
 
 
 def milliseconds(time: float) -> str:
-    """A time, s, for a sentence."""
-    return f"{1e3 * time:.3g} ms"
+    """A time, s, for a sentence: three digits, and no power of ten for what is large."""
+    return f"{1e3 * time:.3g} ms" if abs(time) < 1.0 else f"{1e3 * time:.0f} ms"
 
 
 def text_table(head: Sequence[str], rows: Sequence[Sequence[str]], left: Sequence[int] = (0,)) -> str:

@@ -15,7 +15,7 @@ from bent_beam.free_flight import acting
 from bent_beam.measure.reduction import wall_peaks
 from bent_beam.measure.whole_impact import WINDOW
 from comparison.figures import style
-from comparison.readable import unit_for
+from comparison.readable import milliseconds, unit_for
 
 __all__ = ["contacts", "draw_force", "draw_wall", "heights", "impulse_given", "sheet"]
 
@@ -84,7 +84,7 @@ def draw_force(axis: Any, history: ImpactHistory, end: float, words: str = "") -
     axis.set_ylim(scale * min(0.0, 1.15 * low), scale * 1.3 * top)
     second = "; of the second wall negative" if history.impact.opposite_wall is not None else ""
     rigid = "" if peaks else "; a rigid wall has no peak force"
-    window = f"mean over {_plain(1e3 * edges[1])} ms{second}{rigid}"
+    window = f"mean over {milliseconds(edges[1])}{second}{rigid}"
     axis.text(1.0, 1.03, window, transform=axis.transAxes, ha="right", va="bottom", fontsize=6.5)
     if peaks is not None and largest:
         _mark(axis, peaks.time, scale * largest, words or f"largest {scale * peaks.force:.4g} {unit}")
@@ -212,11 +212,6 @@ def draw_shapes(axis: Any, history: ImpactHistory, end: float, reach: float | No
         base = (len(shown) - 1 - number) * room + 0.18 * room
         draw_wall(axis, history, base, 0.07 * room, reach=edge)
         axis.plot(x, base + height, color=style.COLOURS["blue"], lw=1.3)
-        axis.text(1.04 * edge, base, f"{_plain(1e3 * t)} ms", va="center", fontsize=7.0)
+        axis.text(1.04 * edge, base, milliseconds(t), va="center", fontsize=7.0)
     axis.set_ylim(0.0, high / factor)
     axis.set_title(f"heights × {factor:,.6g}", loc="right", fontsize=7.5)
-
-
-def _plain(value: float) -> str:
-    """Three digits, and no power of ten for what is large."""
-    return f"{value:.3g}" if abs(value) < 1000.0 else f"{value:.0f}"
