@@ -1,6 +1,7 @@
 """``bentbeam predict``: theory beside a simulation of the whole beam, and the whole impact."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -14,6 +15,7 @@ from histories import rod
 from bent_beam import Impact
 from bent_beam.cases import Case, case_from_tables, load_case
 from bent_beam.measure.numbers import Number
+from bent_beam.meshes import UniformMesh
 from comparison import predicting
 from comparison.doubts import doubts
 from comparison.predicting import CHECKED, COMPARED, LATEST, predict_case
@@ -146,6 +148,15 @@ def test_theory_and_simulation_agree_over_the_longest_time_and_not_at_the_most_i
     runs: Any = SimpleNamespace(part=lambda _: None)
     found = predicting._agreement([0.1, 0.2, 0.3, 0.4, 0.6, 1.0], theory, runs, 0)
     assert found == {"from": 0.6, "until": 1.0}
+
+
+def test_a_warning_of_one_of_several_runs_says_of_which() -> None:
+    """Steps of a rough mesh: its first is longer than the earlier time."""
+    soft = Impact.whole_beam(0.1, relative_damping=1e-2).replace(wall_stiffness=1e3)
+    found = predict_case(replace(case_of(soft), mesh=UniformMesh(0.2)), [1e-9, 1e-2], whole=False)
+    off = [line for line in found.warnings if "do not balance" in line]
+    assert [line.partition(":")[0] for line in off] == ["to 10 ms", "to 1e-06 ms"]
+    assert any(line.startswith("the mesh cannot resolve") for line in found.warnings), "both runs say so"
 
 
 def test_theory_only_simulates_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
