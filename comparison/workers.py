@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from bent_beam.checks import whole
-from bent_beam.errors import TimeLimitError
+from bent_beam.errors import InputError, TimeLimitError
 from comparison.store import this_code
 
 __all__ = ["Clock", "run_all"]
@@ -48,6 +48,8 @@ def run_all(
     """
     if jobs is not None:
         whole("jobs", jobs, 1)
+    if scheduler is not None and jobs not in (None, 1):
+        raise InputError(f"jobs has no effect next to scheduler, whose workers run: leave it out (got {jobs!r})")
     results: dict[int, Any] = {}
     calls, began = iter(range(len(arguments))), time.perf_counter()
 
