@@ -21,7 +21,7 @@ from bent_beam.cases import Case
 from bent_beam.meshes import GradedMesh
 from bent_beam_programs.thesis.sheet import Sheet
 from bent_beam_programs.thesis.studies.base import Study
-from bent_beam_programs.thesis.studies.of_methods import MethodOnCase, NotVaried, Setting
+from bent_beam_programs.thesis.studies.of_methods import MethodOnCase, NotVaried
 from bent_beam_programs.thesis.studies.outcome import Outcome
 from bent_beam_programs.thesis.studies.thesis import Variant, thesis_settings
 from comparison.figures import style
@@ -115,7 +115,7 @@ def draw(sheet: Sheet, outcomes: Sequence[Outcome]) -> None:
         axis.legend(loc="center right")
 
 
-def vary(on: MethodOnCase) -> list[Setting]:
+def vary(on: MethodOnCase) -> list[Variant]:
     raise NotVaried("no method shows the matrix of its step; the study takes apart that of the thesis's scheme")
 
 

@@ -20,7 +20,7 @@ from bent_beam.method import Method
 from bent_beam_programs.thesis.sheet import Sheet
 from bent_beam_programs.thesis.studies.base import Study
 from bent_beam_programs.thesis.studies.exact import Exact
-from bent_beam_programs.thesis.studies.of_methods import MethodOnCase, Setting
+from bent_beam_programs.thesis.studies.of_methods import MethodOnCase
 from bent_beam_programs.thesis.studies.outcome import MEASURES, Outcome
 from bent_beam_programs.thesis.studies.panels import contact_length, geometry, reaction
 from bent_beam_programs.thesis.studies.thesis import THESIS_MASS, Settings, Variant, thesis_settings
@@ -72,9 +72,10 @@ def variants(case: Case) -> list[Variant]:
     return runs
 
 
-def vary(on: MethodOnCase) -> list[Setting]:
+def vary(on: MethodOnCase) -> list[Variant]:
     """The method as it is, under both accelerations."""
-    return [Setting(f"{name}a₀", on.method, sign, accelerated(on.case.impact, sign)) for sign, name in SIGNS.items()]
+    impacts = {sign: accelerated(on.case.impact, sign) for sign in SIGNS}
+    return [on.setting(f"{SIGNS[sign]}a₀", on.method, sign, impact=impact) for sign, impact in impacts.items()]
 
 
 def fitted(outcome: Outcome, window: float = 1.0) -> float:

@@ -11,7 +11,7 @@ from bent_beam.cases import Case
 from bent_beam.meshes import ScaleFreeMesh, SquareMesh
 from bent_beam_programs.thesis.studies.base import Study
 from bent_beam_programs.thesis.studies.exact import Exact
-from bent_beam_programs.thesis.studies.of_methods import MethodOnCase, NotVaried, Setting, of_kind
+from bent_beam_programs.thesis.studies.of_methods import MethodOnCase, NotVaried, of_kind
 from bent_beam_programs.thesis.studies.thesis import MASSES, POINTS, Runs, Settings, Variant, thesis_settings, varied
 from comparison.readable import readable
 from hermite_fe.contacts import impact_coupling
@@ -35,14 +35,14 @@ def time_step_variants(case: Case) -> list[Variant]:
     return varied(case, base, {f"h = {readable(h, 2)} s": (h, {"time_step": h}) for h in steps})
 
 
-def time_step_vary(on: MethodOnCase) -> list[Setting]:
+def time_step_vary(on: MethodOnCase) -> list[Variant]:
     """Steps so many times longer; the mesh stays."""
     integrator = on.part("integrator", filled=True)
     steps = {name: value for name in STEPS if (value := getattr(integrator, name, None)) is not None}
     if not steps:
         raise NotVaried(f"its integrator ({type(integrator).__name__}) takes its step from the mesh")
     longer = {f: replace(integrator, **{name: f * value for name, value in steps.items()}) for f in STEP_FACTORS}
-    return [Setting(f"h × {f:g}", on.with_parts(integrator=one), f) for f, one in longer.items()]
+    return [on.setting(f"h × {f:g}", on.with_parts(integrator=one), f) for f, one in longer.items()]
 
 
 TIME_STEP = Study("time-step", "time step", time_step_variants, time_step_vary)
@@ -85,10 +85,10 @@ def mesh_variants(case: Case) -> list[Variant]:
     return varied(case, base, runs)
 
 
-def mesh_vary(on: MethodOnCase) -> list[Setting]:
+def mesh_vary(on: MethodOnCase) -> list[Variant]:
     """Elements so many times longer, then other growths; the steps stay."""
     mesh = on.part("mesh", filled=True)
-    return [Setting(f"Δx × {f:g}", on.laid_on(mesh.refined(1.0 / f)), f) for f in LENGTH_FACTORS] + on.grown(GROWTHS)
+    return [on.setting(f"Δx × {f:g}", on.laid_on(mesh.refined(1.0 / f)), f) for f in LENGTH_FACTORS] + on.grown(GROWTHS)
 
 
 MESH = Study("mesh", "mesh", mesh_variants, mesh_vary)
@@ -119,10 +119,10 @@ def far_field_variants(case: Case) -> list[Variant]:
     return varied(case, base, runs, half)
 
 
-def far_field_vary(on: MethodOnCase) -> list[Setting]:
+def far_field_vary(on: MethodOnCase) -> list[Variant]:
     """The method as it is, on half the beam, and, where it has them, with other growths, viscosities and absorbers."""
     half = on.case.impact.replace(length=0.5 * on.case.impact.length)
-    found = [Setting("as it is", on.method), Setting("half the length", on.method, impact=half)]
+    found = [on.setting("as it is", on.method), on.setting("half the length", on.method, impact=half)]
     if on.has("mesh"):
         found += on.grown(FAR_GROWTHS)
     for name in ABSORBERS:
@@ -131,7 +131,7 @@ def far_field_vary(on: MethodOnCase) -> list[Setting]:
     if on.has("far_field"):
         part, kinds = on.part("far_field"), on.kinds("far_field")
         others = {name: kind for name, kind in kinds.items() if kind is not type(part)}
-        found += [Setting(name, on.with_parts(far_field=of_kind(kind, part))) for name, kind in others.items()]
+        found += [on.setting(name, on.with_parts(far_field=of_kind(kind, part))) for name, kind in others.items()]
     return found
 
 
@@ -166,13 +166,13 @@ def contact_point_variants(case: Case) -> list[Variant]:
     return varied(case, base, runs)
 
 
-def contact_point_vary(on: MethodOnCase) -> list[Setting]:
+def contact_point_vary(on: MethodOnCase) -> list[Variant]:
     """Every contact discretisation that the method knows, with every mass matrix that it knows."""
     names = ["contact", *(["mass"] if on.has("mass") else [])]
     found = []
     for chosen in product(*(on.kinds(name).items() for name in names)):
         parts = {name: of_kind(kind, on.part(name)) for name, (_, kind) in zip(names, chosen)}
-        found.append(Setting(", ".join(kind for kind, _ in chosen), on.with_parts(**parts)))
+        found.append(on.setting(", ".join(kind for kind, _ in chosen), on.with_parts(**parts)))
     return found
 
 
@@ -224,7 +224,7 @@ def damping_variants(case: Case) -> list[Variant]:
     return varied(case, thesis_settings(case.impact, case.end_time), runs)
 
 
-def damping_vary(on: MethodOnCase) -> list[Setting]:
+def damping_vary(on: MethodOnCase) -> list[Variant]:
     """The integrator's own damping, as the ρ∞ of the same high-frequency amplification."""
     integrator = on.part("integrator")
     name = next((n for n in DAMPS if hasattr(integrator, n)), None)
@@ -233,7 +233,7 @@ def damping_vary(on: MethodOnCase) -> list[Setting]:
     if getattr(integrator, "beta", None) is not None:
         raise NotVaried(f"its integrator sets beta = {integrator.beta!r}, which gamma alone does not follow")
     return [
-        Setting(f"ρ∞ = {radius:g}", on.with_field("integrator", **{name: DAMPS[name](radius)}), radius)
+        on.setting(f"ρ∞ = {radius:g}", on.with_field("integrator", **{name: DAMPS[name](radius)}), radius)
         for radius in RADII
     ]
 

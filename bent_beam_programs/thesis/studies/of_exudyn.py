@@ -6,7 +6,7 @@ from bent_beam.cases import Case
 from bent_beam.impact import Impact
 from bent_beam.method import Method
 from bent_beam_programs.thesis.studies.base import Study
-from bent_beam_programs.thesis.studies.of_methods import MethodOnCase, Setting
+from bent_beam_programs.thesis.studies.of_methods import MethodOnCase
 from bent_beam_programs.thesis.studies.thesis import Variant, references
 from exudyn_models import CONTACTS, ELEMENTS, INTEGRATORS, ExudynModel
 from exudyn_models.geometry import GEOMETRIES
@@ -55,9 +55,9 @@ def penalty_variants(case: Case) -> list[Variant]:
     ]
 
 
-def penalty_vary(on: MethodOnCase) -> list[Setting]:
+def penalty_vary(on: MethodOnCase) -> list[Variant]:
     """Stiffness and damping of the method's contact, in units of its elements' own."""
-    found = [Setting("as it is", on.method)]
+    found = [on.setting("as it is", on.method)]
     for symbol, (name, tried) in TRIED.items():
         found += on.over("contact", name, f"{symbol} = {{:g}}", tried)
     return found
@@ -95,13 +95,14 @@ def amplitude_variants(case: Case) -> list[Variant]:
     ]
 
 
-def amplitude_vary(on: MethodOnCase) -> list[Setting]:
+def amplitude_vary(on: MethodOnCase) -> list[Variant]:
     """Every geometry that the method knows, over ever longer times."""
-    impact, kinds = cut(on.case.impact), on.kinds("geometry")
+    impact = cut(on.case.impact)
+    methods = {name: on.with_parts(geometry=kind()) for name, kind in on.kinds("geometry").items()}
     return [
-        Setting(f"{name}, τ = {tau:g}", on.with_parts(geometry=kind()), tau**0.5, impact, tau * impact.time_scale)
+        on.setting(f"{name}, τ = {tau:g}", method, tau**0.5, impact=impact, end_time=tau * impact.time_scale)
         for tau in DURATIONS
-        for name, kind in kinds.items()
+        for name, method in methods.items()
     ]
 
 

@@ -19,11 +19,10 @@ from matplotlib.ticker import NullFormatter
 
 from bent_beam.cases import Case
 from bent_beam.errors import ANY_FAILURE
-from bent_beam.impact import Impact
 from bent_beam.meshes import MESHES, Mesh
 from bent_beam.method import Method, chosen_for, refined
 from bent_beam_programs.thesis.sheet import Sheet
-from bent_beam_programs.thesis.studies.outcome import Outcome, failed
+from bent_beam_programs.thesis.studies.outcome import Outcome
 from bent_beam_programs.thesis.studies.thesis import Variant
 from comparison.figures import style
 
@@ -45,25 +44,17 @@ class NotVaried(ValueError):
 
 
 @dataclass(frozen=True)
-class Setting:
-    """One value of the varied parameter: its name, the same for all methods, and the method that has it.
-
-    value : as a number, where it is one. impact, end_time : where they are not the case's own.
-    """
-
-    name: str
-    method: Method
-    value: float | None = None
-    impact: Impact | None = None
-    end_time: float | None = None
-
-
-@dataclass(frozen=True)
 class MethodOnCase:
     """A method and the case that it runs: what a study varies."""
 
     method: Any
     case: Case
+
+    def setting(self, name: str, method: Method, value: float | None = None, **others: Any) -> Variant:
+        """A run with one value of the varied parameter. name : of the value, the same for all methods. value : as a
+        number, where it is one. others : impact and end_time where they are not the case's own."""
+        about: dict[str, Any] = {"impact": self.case.impact, "end_time": self.case.end_time} | others
+        return Variant(self.method.label, method=method, value=value, setting=name, **about)
 
     def has(self, name: str) -> bool:
         """Whether the method has a part of this name."""
@@ -111,31 +102,32 @@ class MethodOnCase:
             raise NotVaried(f"its {name} ({type(part).__name__}) has no {field}")
         return self.with_parts(**{name: dataclasses.replace(part, **values)})
 
-    def over(self, name: str, field: str, words: str, values: Sequence[float]) -> list[Setting]:
+    def over(self, name: str, field: str, words: str, values: Sequence[float]) -> list[Variant]:
         """One field of a part at several values, which are named by ``words``. Raises :class:`NotVaried` where the
         method states one: no row would have it."""
         part = self.part(name)
         stated = getattr(part, field, None)
         if stated not in (getattr(type(part), field, stated), *values):
             raise NotVaried(f"its {name}.{field} is what the study varies: leave it out (got {stated!r})")
-        return [Setting(words.format(v), self.with_field(name, **{field: v}), v) for v in values]
+        return [self.setting(words.format(v), self.with_field(name, **{field: v}), v) for v in values]
 
     def laid_on(self, mesh: Mesh) -> Method:
         """A copy with another mesh and the steps that the method has with its own."""
         steps = {"integrator": self.part("integrator", filled=True)} if self.has("integrator") else {}
         return self.with_parts(mesh=mesh, **steps)
 
-    def grown(self, growths: Sequence[float]) -> list[Setting]:
+    def grown(self, growths: Sequence[float]) -> list[Variant]:
         """On meshes that grow by these factors outside the zone; none where the method's mesh does not grow."""
         mesh = self.part("mesh", filled=True)
         for name in ("growth_outside", "growth"):
             if type(mesh) in MESHES.values() and getattr(mesh, name, None) is not None:
-                return [Setting(f"e = {e:g}", self.laid_on(dataclasses.replace(mesh, **{name: e})), e) for e in growths]
+                laid = {e: self.laid_on(dataclasses.replace(mesh, **{name: e})) for e in growths}
+                return [self.setting(f"e = {e:g}", method, e) for e, method in laid.items()]
         return []
 
 
-Vary = Callable[[MethodOnCase], Sequence[Setting]]
-"""Settings of a study on a method; raises :class:`NotVaried`."""
+Vary = Callable[[MethodOnCase], Sequence[Variant]]
+"""The runs of a study on a method; raises :class:`NotVaried`."""
 
 
 def of_kind(kind: type, part: Any) -> Any:
@@ -161,18 +153,14 @@ def _runs(vary: Vary, case: Case, method: Method, factor: float) -> list[Variant
         if finer is None:
             reason = f"refine: {method.path} does not know how to be refined (got {factor:g})"
         elif not (reason := finer.refuses(case.impact) or ""):
-            return [
-                Variant(
-                    method.label, one.impact or case.impact, one.end_time or case.end_time, one.method, one.value,
-                    setting=one.name, refine=factor,
-                )
-                for one in vary(MethodOnCase(finer, case))
-            ]  # fmt: skip
+            found = vary(MethodOnCase(finer, case))
+            return [dataclasses.replace(run, label=method.label, refine=factor) for run in found]
     except NotVaried as error:
         reason = f"not varied: {error}"
     except ANY_FAILURE as error:
         reason = str(error)
-    return [failed(method.label, case.impact, None, reason, refine=factor, refused=True)]
+    asked = Variant(method.label, case.impact, case.end_time, method, refine=factor)
+    return [asked.lost(reason, refused=True)]
 
 
 def draw_methods(sheet: Sheet, heading: str, outcomes: Sequence[Outcome]) -> None:

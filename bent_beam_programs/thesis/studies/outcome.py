@@ -165,13 +165,6 @@ class Outcome:
         }
 
 
-def failed(label: str, impact: Impact, value: float | None, reason: str, **about: Any) -> Outcome:
-    """A run that could not finish. ``about`` : further fields."""
-    none = np.zeros(0)
-    text = " ".join(reason.split())
-    return Outcome(label, impact, value, *(none,) * 7, dict.fromkeys(MEASURES), failure=text, **about)
-
-
 def outcome_of(
     history: ImpactHistory, label: str, *, value: float | None = None, mark: str | None = None, **about: Any
 ) -> Outcome:

@@ -16,6 +16,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
+import numpy as np
+
 from bent_beam.cases import Case
 from bent_beam.errors import ANY_FAILURE, SimulationError
 from bent_beam.history import ImpactHistory
@@ -23,7 +25,7 @@ from bent_beam.impact import Impact
 from bent_beam.meshes import GradedMesh, Mesh
 from bent_beam.method import Method, Save, simulated
 from bent_beam_programs.thesis.studies.exact import Exact
-from bent_beam_programs.thesis.studies.outcome import Outcome, failed, outcome_of, saved_times
+from bent_beam_programs.thesis.studies.outcome import MEASURES, Outcome, outcome_of, saved_times
 from comparison.workers import run_all
 from hermite_fe import CONTACTS, FAR_FIELDS, INTEGRATORS, HermiteFE
 from hermite_fe.contacts import MiddleContact
@@ -130,7 +132,9 @@ class Variant:
 
     def lost(self, reason: str, *, refused: bool = False) -> Outcome:
         """The outcome of a run that gave none."""
-        return failed(self.label, self.impact, self.value, reason, refused=refused, **self.about)
+        curves, numbers, why = (np.zeros(0),) * 7, dict.fromkeys(MEASURES), " ".join(reason.split())
+        about = self.about | {"failure": why, "refused": refused}
+        return Outcome(self.label, self.impact, self.value, *curves, numbers, **about)
 
     def history(self) -> ImpactHistory:
         """The run itself."""
