@@ -32,28 +32,20 @@ BARS = {"factor": FACTOR, "least": LEAST, "light": LIGHT, "leastLight": LEAST_LI
 """Of its error bars, and the damping ratios that it takes where none is stated."""
 
 
+CONSTANTS = {
+    validity: ("TOLERANCE", "DISTANCE", "SWING", "FLAT", "SMALL_CHANGE", "FLATTEST_SOLVED", "SLOPE_LIMIT"),
+    shear: ("FORGOTTEN", "FLATTEST_SHEARED"),
+    damped_point: ("AHEAD_FROM",),
+    wall_prediction: ("FLATTEST_SETTLED", "LEAST_DAMPED", "ZONE_TIME", "ZONE_LENGTHS", "POINT_TIME"),
+}
+"""Of `theory`, what its formulas in limits.js and instants.js need: there by the same names in small letters."""
+
+
 def constants() -> dict[str, float]:
-    """Of `theory`, what its formulas in limits.js need."""
+    """:data:`CONSTANTS`, and the rates at which either load changes the gap's curvature at one point."""
     alpha, axial = (second_order(contact_parameters(1.0, a, axial=n)).opening for a, n in ((1.0, 0.0), (0.0, 1.0)))
-    return {
-        "tolerance": validity.TOLERANCE,
-        "distance": validity.DISTANCE,
-        "swing": validity.SWING,
-        "flat": validity.FLAT,
-        "small": validity.SMALL_CHANGE,
-        "flattest": validity.FLATTEST_SOLVED,
-        "slope": validity.SLOPE_LIMIT,
-        "opening_alpha": alpha,
-        "opening_axial": axial,
-        "forgotten": shear.FORGOTTEN,
-        "ahead_from": damped_point.AHEAD_FROM,
-        "flattest_sheared": shear.FLATTEST_SHEARED,
-        "flattest_settled": wall_prediction.FLATTEST_SETTLED,
-        "least_damped": wall_prediction.LEAST_DAMPED,
-        "zone_time": wall_prediction.ZONE_TIME,
-        "zone_lengths": wall_prediction.ZONE_LENGTHS,
-        "point_time": wall_prediction.POINT_TIME,
-    }
+    found = {name.lower(): getattr(module, name) for module, names in CONSTANTS.items() for name in names}
+    return found | {"opening_alpha": alpha, "opening_axial": axial}
 
 
 def script(names: tuple[str, ...] = (*MODEL, *PAGE)) -> str:

@@ -15,13 +15,13 @@ const Limits = (() => {
 
   /** The smallest τ with |second|τ² = 2 % of |1 + first τ|, or |first|τ no longer small. */
   function expansion(first, second) {
-    const small = first ? V.small / abs(first) : Infinity, half = 0.5 * V.tolerance * first;
+    const small = first ? V.small_change / abs(first) : Infinity, half = 0.5 * V.tolerance * first;
     return second ? min(small, (half + sqrt(half * half + V.tolerance * abs(second))) / abs(second)) : small;
   }
 
   /** τ at which the second order in the loads counts. */
   function loads({ contact, alpha, n }) {
-    const { lambda0, r0, ratio, lambda1, r1 } = contact, { lambda2, r2 } = Theory.second(contact, alpha, n, V.flattest);
+    const { lambda0, r0, ratio, lambda1, r1 } = contact, { lambda2, r2 } = Theory.second(contact, alpha, n, V.flattest_solved);
     let found = Infinity;
     if (lambda0 > 0) found = min(expansion(r1 / r0, r2 / r0), expansion(lambda1 / lambda0, lambda2 / lambda0));
     else if (n) found = expansion(r1, r2);
@@ -53,7 +53,7 @@ const Limits = (() => {
     const leads = n && abs(contact.r1 - alone.r1) >= abs(alone.r1);
     const list = [
       [ends(problem), "waves back from the ends"], [loads(problem), leads ? "tension" : "first-order correction"],
-      [(V.slope / contact.steepest) ** 2, "slope"], [damping(problem), "damping"],
+      [(V.slope_limit / contact.steepest) ** 2, "slope"], [damping(problem), "damping"],
     ];
     const [tau, by] = list.reduce((one, other) => (other[0] < one[0] ? other : one)), until = tau * timeScale;
     const shear = b.shear && (contact.ratio < V.flattest_sheared ? Infinity
