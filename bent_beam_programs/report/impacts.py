@@ -139,15 +139,12 @@ def show_all(
     progress: Callable[[int, int], None] | None = None,
 ) -> tuple[list[ShownImpact], list[str]]:
     """Every impact by every method, impact by impact, and a sentence for each that could not be shown."""
-    asked = [(shown, method, store) for shown in wanted for method in methods]
-    slowest_first = sorted(range(len(asked)), key=lambda i: -asked[i][0].epsilon)
-    calls = [asked[i] for i in slowest_first]
+    calls = [(shown, method, store) for shown in wanted for method in methods]
 
     def died(i: int, why: str) -> str:
         return f"{calls[i][1].label}, {calls[i][0].title}: {why}"
 
-    found = dict(zip(slowest_first, run_all(_attempted, calls, jobs=jobs, progress=progress, on_death=died)))
-    each = [found[i] for i in range(len(asked))]
+    each = run_all(_attempted, calls, jobs=jobs, progress=progress, on_death=died)
     return [e for e in each if isinstance(e, ShownImpact)], [e for e in each if isinstance(e, str)]
 
 
@@ -178,9 +175,9 @@ def theory_of(shown: Shown) -> dict[str, Any]:
     }
 
 
-def kept_instants(time: Array, count: int = FRAMES) -> NDArray[np.int64]:
-    """Saved instants nearest to ``count`` ones even in √t, for the map of forces."""
-    wanted = np.linspace(START, 1.0, count) ** 2 * time[-1]
+def kept_instants(time: Array) -> NDArray[np.int64]:
+    """Saved instants nearest to :data:`FRAMES` ones even in √t, for the map of forces."""
+    wanted = np.linspace(START, 1.0, FRAMES) ** 2 * time[-1]
     return np.unique(np.maximum(np.abs(time[None, :] - wanted[:, None]).argmin(axis=1), 1))
 
 
