@@ -42,10 +42,8 @@
     const width = place.clientWidth, height = 280, left = 58, bottom = 40, top = 8, right = 8;
     const w = width - left - right, h = height - top - bottom;
     const X = (v) => (v - x[0]) / (x[1] - x[0]) * w, Y = (v) => (y[1] - v) / (y[1] - y[0]) * h;
-    const svg = document.createElementNS(SVG, "svg");
-    for (const [key, value] of Object.entries({ viewBox: `0 0 ${width} ${height}`, width, height, role: "img" }))
-      svg.setAttribute(key, value);
-    svg.setAttribute("aria-label", `${yLabel} over ${xLabel}`);
+    const svg = add(new DocumentFragment(), "svg", { viewBox: `0 0 ${width} ${height}`, width, height, role: "img",
+      "aria-label": `${yLabel} over ${xLabel}` });
     for (const v of ticks(x, Math.max(2, Math.floor(w / 80)))) {
       add(svg, "line", { x1: left + X(v), x2: left + X(v), y1: top, y2: top + h, class: "grid" });
       add(svg, "text", { x: left + X(v), y: top + h + 16, "text-anchor": "middle" }, text(v));
