@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
@@ -84,16 +85,9 @@ def counts(rows: Sequence[Sequence[str]]) -> list[tuple[str, int, int, int, int]
     of :meth:`Printed.row`.
     """
     pairs = [(row[5], row[6].rpartition(": ")[2]) for row in rows]
-    return [
-        (
-            name,
-            sum(ours == name for ours, _ in pairs),
-            sum((other or ours) == name for ours, other in pairs),
-            sum(bool(other) and ours == name for ours, other in pairs),
-            sum(other == name for _, other in pairs),
-        )
-        for name in CLASSES
-    ]
+    ours, others = Counter(one for one, _ in pairs), Counter(other for _, other in pairs)
+    throughout, tested = Counter(other or one for one, other in pairs), Counter(one for one, other in pairs if other)
+    return [(name, ours[name], throughout[name], tested[name], others[name]) for name in CLASSES]
 
 
 def summary(rows: Sequence[Sequence[str]]) -> str:
