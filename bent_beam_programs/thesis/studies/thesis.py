@@ -170,10 +170,8 @@ def _outcome(variant: Variant) -> Outcome:
     """One variant in a worker; a solver that cannot finish, and a method that refuses, are answers too."""
     try:
         history = variant.history()
-    except (SimulationError, ArithmeticError) as error:
-        return variant.lost(str(error))
-    except ValueError as error:
-        return variant.lost(str(error), refused=True)
+    except (SimulationError, ArithmeticError, ValueError) as error:
+        return variant.lost(str(error), refused=isinstance(error, ValueError))
     try:
         return outcome_of(history, variant.label, value=variant.value, **variant.about)
     except ANY_FAILURE as error:
