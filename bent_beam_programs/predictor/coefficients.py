@@ -111,11 +111,13 @@ def _functions() -> dict[str, tuple[int, Function]]:
     return found
 
 
-def _fit(scaled: Function, nodes: int) -> list[list[float]]:
-    """Coefficients of a function of u on each interval: the interpolant at Chebyshev points."""
+def _fit(power: int, function: Function, nodes: int) -> list[list[float]]:
+    """Coefficients of f/(1 + b)^p over u on each interval: the interpolant at Chebyshev points."""
     points, pieces = chebyshev.chebpts1(nodes), []
     for low, high in pairwise(BREAKS):
-        found = chebyshev.chebfit(points, scaled(low + (high - low) * (points + 1.0) / 2.0), nodes - 1)
+        u = low + (high - low) * (points + 1.0) / 2.0
+        scaled = function(_kappa_over_nu(u)) / (1.0 + _variable(u)) ** power
+        found = chebyshev.chebfit(points, scaled, nodes - 1)
         digits = DIGITS - int(np.ceil(np.log10(np.abs(found).max())))
         pieces.append(chebyshev.chebtrim(found.round(digits)).tolist())
     return pieces
@@ -124,15 +126,8 @@ def _fit(scaled: Function, nodes: int) -> list[list[float]]:
 @cache
 def coefficients() -> dict[str, Any]:
     """``breaks`` of u, and ``functions``: name → ``power`` and ``pieces``, the coefficients on each interval."""
-
-    def scaled(power: int, function: Function) -> Function:
-        return lambda u: function(_kappa_over_nu(u)) / (1.0 + _variable(u)) ** power
-
     functions = {
-        name: {
-            "power": power,
-            "pieces": _fit(scaled(power, function), NODES_OF_SECOND_ORDER if "2_" in name else NODES),
-        }
+        name: {"power": power, "pieces": _fit(power, function, NODES_OF_SECOND_ORDER if "2_" in name else NODES)}
         for name, (power, function) in _functions().items()
     }
     return {"breaks": list(BREAKS), "middle": MIDDLE, "functions": functions}
