@@ -150,11 +150,6 @@ def render(content: Content) -> str:
         colours={label: mark["color"] for label, mark in marks(methods).items()},
         groups=groups,
         shown_methods=list(dict.fromkeys(i.label for i in content.impacts)),
-        energies=[
-            style
-            for name, style in ENERGIES.items()
-            if any(any(i.data["energy"].get(name, ())) for i in content.impacts)
-        ],
         acceleration=acceleration_rows(content.impacts),
         pipe_headings=[heading for heading, _ in COLUMNS.values()],
         pictures={file.stem: picture(file) for file in content.pictures},
@@ -162,14 +157,9 @@ def render(content: Content) -> str:
         facts=facts(content),
         settings=settings(content),
         data={"energies": ENERGIES, "impacts": [impact_data(runs) for runs in groups.values()]},
-        script=inline_script((TEMPLATES / "report.js").read_text(encoding="utf-8")),
+        script=Markup((TEMPLATES / "report.js").read_text(encoding="utf-8")),
         style=Markup((TEMPLATES / "report.css").read_text(encoding="utf-8")),
     )
-
-
-def inline_script(text: str) -> Markup:
-    """Our own script, safe between script tags."""
-    return Markup(text.replace("</script", "<\\/script").replace("<!--", "<\\!--"))
 
 
 def picture(file: Path) -> str:
