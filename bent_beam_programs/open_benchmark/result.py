@@ -51,10 +51,6 @@ class _Diverged(ResultError):
     """A number that only a run that has blown up gives."""
 
 
-def _empty() -> Array:
-    return np.empty(0)
-
-
 @dataclass(frozen=True)
 class Result:
     """One result, validated.
@@ -69,9 +65,9 @@ class Result:
     detail: str
     problem: Problem
     metadata: dict[str, Any]
-    tau: Array = field(default_factory=_empty)
-    J: Array = field(default_factory=_empty)
-    Jm: Array = field(default_factory=_empty)
+    tau: Array = field(default_factory=lambda: np.empty(0))
+    J: Array = field(default_factory=lambda: np.empty(0))
+    Jm: Array = field(default_factory=lambda: np.empty(0))
     series: dict[str, Array] = field(default_factory=dict)
     x: Array | None = None
     snap_tau: Array | None = None
