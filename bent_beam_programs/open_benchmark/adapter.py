@@ -41,10 +41,8 @@ INSTALL_SECONDS = 900.0
 
 @dataclass(frozen=True)
 class Adapter:
-    """One code. ``install``: pinned packages of its environment; ``debian``: a package of the system's Python
-    instead; neither: this Python. ``kinds``: kinds of problems it takes (empty: any). ``host``: of this project.
-    ``chosen``: whether its mesh and steps are the same in every problem. ``manual``: statements about the code, each
-    with the page that supports it."""
+    """One code; the head of ``adapters.toml`` says what the fields are. Without ``install`` and ``debian`` it runs with
+    this Python, without ``kinds`` it is asked all problems."""
 
     name: str
     file: Path

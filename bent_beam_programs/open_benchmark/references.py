@@ -4,8 +4,6 @@ Exact numbers of the infinite beam and of the ladder stand in ``references.json`
 that scoring needs no theory. A problem of other parameters has its references computed (:mod:`.exact`). A whole
 impact has no closed form: its reference is a converged simulation with an error bar, stored for the shipped problems in
 ``bounce_reference.json`` (:mod:`.bounce_reference`), and run on a coarser mesh for others.
-
-An exact J(t) is a piecewise polynomial: of the time, or of its fourth root.
 """
 
 from __future__ import annotations
@@ -26,7 +24,7 @@ from bent_beam_programs.open_benchmark.problem import Problem
 BOUNCES = Path(__file__).with_name("bounce_reference.json")
 REFERENCES = Path(__file__).with_name("references.json")
 SCHEMA = "beam-impact-references/2"
-POWERS = {"time": 1.0, "fourth root of time": 0.25}  # of the variable that J(t) is a polynomial of
+POWERS = {"time": 1.0, "fourth root of time": 0.25}  # of the variable that J(t) is a piecewise polynomial of
 
 stored = cache(read)
 Array = NDArray[np.float64]

@@ -6,8 +6,7 @@ as CSV.
 
     draw_all(["fig-2.7a", "table-3.1"], Path("gallery"))
 
-One small module a theme; the items of a module share runs, so one process draws them. A docstring gives the title and
-the caption; ``sheet.numbers`` are printed below the caption.
+One small module a theme; the items of a module share runs, so one process draws them.
 """
 
 from __future__ import annotations

@@ -16,10 +16,9 @@ from bent_beam_programs.thesis.studies.thesis import MASSES, POINTS, Runs, Setti
 from comparison.readable import readable
 from hermite_fe.contacts import impact_coupling
 
-# The time step h (thesis 3.3.1, Figs 3.7–3.9, Table 3.1): 40, 4, 2, 1 and 0.4 times 10⁻⁵ t*, the rest as in the
-# thesis.
+# The time step h (thesis 3.3.1, Figs 3.7–3.9, Table 3.1).
 
-STEPS_TRIED = (40.0, 4.0, 2.0, 1.0, 0.4)
+STEPS_TRIED = (40.0, 4.0, 2.0, 1.0, 0.4)  # times the thesis's
 STEP_FACTORS = (4.0, 2.0, 1.0, 0.5)  # times a method's own
 STEPS = ("time_step", "growth", "relative_step")  # fields of an integrator that give the length of its steps
 
@@ -48,8 +47,7 @@ def time_step_vary(on: MethodOnCase) -> list[Variant]:
 TIME_STEP = Study("time-step", "time step", time_step_variants, time_step_vary)
 
 
-# The mesh (thesis 3.3.2, Figs 3.10–3.16): element length, growth outside the contact zone, "square" and scale-free
-# elements.
+# The mesh (thesis 3.3.2, Figs 3.10–3.16).
 
 LENGTHS = (2.0, 1.0, 0.6, 0.3)
 GROWTHS = (1.05, 1.02)
@@ -138,10 +136,7 @@ def far_field_vary(on: MethodOnCase) -> list[Variant]:
 FAR_FIELD = Study("far-field", "far field", far_field_variants, far_field_vary)
 
 
-# Contact at nodes, element middles or mean gaps, each with the consistent and with a lumped mass matrix (thesis 3.3.5,
-# Figs 3.22–3.28); then nodes with a bilateral start.
-#
-# An impact at one constraint changes the gap velocities of its neighbours by c = W_{j,j±1}/W_jj of its own change
+# The contact point and the mass matrix (thesis 3.3.5, Figs 3.22–3.28), with their coupling c = W_{j,j±1}/W_jj
 # (:mod:`hermite_fe.contacts`).
 
 NAMES = {"node": "nodes", "middle": "middles", "mean": "mean gaps", "straight": "middles of straight lines"}

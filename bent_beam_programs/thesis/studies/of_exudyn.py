@@ -12,8 +12,6 @@ from exudyn_models import CONTACTS, ELEMENTS, INTEGRATORS, ExudynModel
 from exudyn_models.geometry import GEOMETRIES
 
 # Exudyn's penalty contact: stiffness C EI/Δx⁴, damping D √(EIμ)/Δx², spectral radius ρ∞.
-#
-# First without viscosity at grid scale, then with it, which is the default of :mod:`exudyn_models`.
 
 STIFFNESS, DAMPING, RADIUS = 10.0, 3.0, 0.5
 STEP = 5e-3  # h/t
