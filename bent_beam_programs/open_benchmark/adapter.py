@@ -14,7 +14,7 @@ import subprocess
 import sys
 import sysconfig
 import tomllib
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib.metadata import packages_distributions, version
@@ -182,12 +182,7 @@ def install(adapter: Adapter) -> str:
 # --- what the code of an adapter depends on -------------------------------------------------------------------------
 
 CODE = (".py", ".so", ".pyd")
-
-
-@cache
-def _distributions() -> Mapping[str, list[str]]:
-    """Which distributions a package comes from; to ask takes a second where many are installed."""
-    return packages_distributions()
+_distributions = cache(packages_distributions)  # to ask takes a second where many are installed
 
 
 def behind(files: Iterable[Path], folder: Path) -> list[str]:
