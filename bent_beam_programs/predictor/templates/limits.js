@@ -21,7 +21,8 @@ const Limits = (() => {
 
   /** τ at which the second order in the loads counts. */
   function loads({ contact, alpha, n }) {
-    const { lambda0, r0, ratio, lambda1, r1 } = contact, { lambda2, r2 } = Theory.second(contact, alpha, n, V.flattest_solved);
+    const { lambda0, r0, ratio, lambda1, r1 } = contact;
+    const { lambda2, r2 } = Theory.second(contact, alpha, n, V.flattest_solved);
     let found = Infinity;
     if (lambda0 > 0) found = min(expansion(r1 / r0, r2 / r0), expansion(lambda1 / lambda0, lambda2 / lambda0));
     else if (n) found = expansion(r1, r2);
