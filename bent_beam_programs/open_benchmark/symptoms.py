@@ -10,7 +10,7 @@ impulse; ahead, where no wave has come, the beam moves freely; and ∫μ(V₀ �
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -25,6 +25,7 @@ STEEP = 0.5  # κ/ν, the least that an error of curvature is held against: wave
 OWN = 0.5  # the share of J beyond which a fall is no pull
 
 Seen = tuple[float, str] | tuple[float, str, float] | None  # figure, where, and a limit of its own
+Deficit = Callable[[Array, float, Array], Array]  # of x, τ and what a snapshot has there
 
 
 def _at(x: float, tau: float) -> str:
@@ -137,26 +138,18 @@ def _pull(result: Result, _: float = 0.0) -> Seen:
 def _momentum(result: Result, _: float = 0.0) -> Seen:
     """What the beam has lost over what the wall gave, less 1: positive where impulses are missing; the median of the
     record's second half."""
-    return _lost(
-        result, result.snapshots("snap_v"), result.J, lambda x, tau, v: _free(result.problem, x, tau)[1] - v, 0.015
-    )
+    return _lost(result, "snap_v", result.J, lambda x, tau, v: _free(result.problem, x, tau)[1] - v, 0.015)
 
 
 def _displacement(result: Result, _: float = 0.0) -> Seen:
     """The same of gaps, once more summed over time."""
     mean = (result.J[1:] + result.J[:-1]) / 2.0
     until = np.concatenate([[0.0], np.cumsum(np.diff(result.tau) * mean)])
-    return _lost(result, result.snapshots(), until, lambda x, tau, gap: gap - _free(result.problem, x, tau)[0], 0.03)
+    return _lost(result, "snap_gap", until, lambda x, tau, gap: gap - _free(result.problem, x, tau)[0], 0.03)
 
 
-def _lost(
-    result: Result,
-    snapshots: Iterator[tuple[float, Array, Array]],
-    series: Array,
-    deficit: Callable[[Array, float, Array], Array],
-    least: float,
-) -> Seen:
-    pairs = [(when, _over_beam(x, deficit(x, when, values))) for when, x, values in snapshots]
+def _lost(result: Result, of: str, series: Array, deficit: Deficit, least: float) -> Seen:
+    pairs = [(when, _over_beam(x, deficit(x, when, values))) for when, x, values in result.snapshots(of)]
     given = [(lost, float(np.interp(when, result.tau, series))) for when, lost in pairs if when >= result.tau[-1] / 2.0]
     ratios = [lost / gave - 1.0 for lost, gave in given if gave != 0.0]
     if not ratios:
