@@ -54,11 +54,8 @@ def draw_acceleration(impacts: Sequence[ShownImpact], out: Path) -> list[Path]:
             for i, (shown, runs) in enumerate(grouped(impacts).items()):
                 theory, dash = theory_of(shown), ("-", "--", ":")[i % 3]
                 time = np.array(theory["time"])
-                axis.plot(
-                    time,
-                    np.array(theory[what]) * time**power,
-                    **{**style.THEORY, "ls": dash, "label": shown.title if what == "front" else None},
-                )
+                line = {**style.THEORY, "ls": dash, "label": shown.title if what == "front" else None}
+                axis.plot(time, np.array(theory[what]) * time**power, **line)
                 for j, run in enumerate(runs):
                     mark = {**marks[run.label], "label": None}
                     axis.plot(time[2 * j :: 7], (np.array(run.data[what]) * time**power)[2 * j :: 7], **mark)
