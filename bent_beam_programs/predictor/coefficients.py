@@ -39,16 +39,6 @@ SLOPE = np.sqrt(2.0 / np.pi)
 TURN = np.exp(-0.25j * np.pi) / 2.0  # z = TURN·x
 
 
-def _variable(u: Array) -> Array:
-    """b, 0 … ∞, where the variable of the polynomials is u, −1 … 1."""
-    return np.asarray(MIDDLE * (1.0 + u) / (1.0 - u))
-
-
-def _kappa_over_nu(u: Array) -> Array:
-    b = _variable(u)
-    return np.asarray(1.0 / (1.0 + SLOPE * b + b**2 / 2.0))
-
-
 def _steepest(kappa: Array) -> Array:
     """Largest slope |E′| of the wave E = Re[A e^{i(x² − λ₀²)/4} e^{z²} i²erfc z], z = e^{−iπ/4}x/2: where E″ = 0,
     between the front and the largest moment ahead of it; found by halving."""
@@ -116,7 +106,8 @@ def _fit(power: int, function: Function, nodes: int) -> list[list[float]]:
     points, pieces = chebyshev.chebpts1(nodes), []
     for low, high in pairwise(BREAKS):
         u = low + (high - low) * (points + 1.0) / 2.0
-        scaled = function(_kappa_over_nu(u)) / (1.0 + _variable(u)) ** power
+        b = MIDDLE * (1.0 + u) / (1.0 - u)  # 0 … ∞
+        scaled = function(1.0 / (1.0 + SLOPE * b + b**2 / 2.0)) / (1.0 + b) ** power
         found = chebyshev.chebfit(points, scaled, nodes - 1)
         digits = DIGITS - int(np.ceil(np.log10(np.abs(found).max())))
         pieces.append(chebyshev.chebtrim(found.round(digits)).tolist())
