@@ -6,7 +6,7 @@ import dataclasses
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar, Self
 
 import numpy as np
 
@@ -63,22 +63,18 @@ class Integrator(Part, ABC):
         """Whether closed constraints may have a strength: what has landed rests on the wall in the next step."""
         return False
 
-    def with_steps(self, time_step: float, growth: float) -> Integrator:
+    def with_steps(self, time_step: float, growth: float) -> Self:
         """A copy whose unset steps are these."""
-        if self.growth is not None:
-            growth = self.growth
-        elif self.time_step is not None:
-            growth = 0.0
-        return dataclasses.replace(
-            self, time_step=time_step if self.time_step is None else self.time_step, growth=growth
-        )
+        if self.time_step is not None:
+            time_step, growth = self.time_step, 0.0
+        return dataclasses.replace(self, time_step=time_step, growth=growth if self.growth is None else self.growth)
 
-    def with_defaults(self, impact: Impact, end_time: float | None) -> Integrator:
+    def with_defaults(self, impact: Impact, end_time: float | None) -> Self:
         """A copy with all other unset choices made for ``impact`` and a run to ``end_time`` (s; ``None``: until it has
         left); itself where there are none."""
         return self
 
-    def refined(self, factor: float) -> Integrator:
+    def refined(self, factor: float) -> Self:
         """A copy with steps ``factor`` times shorter; what is unset stays unset."""
         return dataclasses.replace(
             self,

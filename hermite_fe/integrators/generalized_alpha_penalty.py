@@ -15,7 +15,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass
-from typing import Annotated, ClassVar, NamedTuple
+from typing import Annotated, ClassVar, NamedTuple, Self
 
 from bent_beam.errors import InputError
 from bent_beam.fields import Quantity
@@ -67,17 +67,15 @@ class GeneralizedAlphaPenalty(Integrator):
         int, Quantity("", "limit on solutions a step for the set of active springs; more fail", least=1)
     ] = 20
 
-    def refined(self, factor: float) -> GeneralizedAlphaPenalty:
+    def refined(self, factor: float) -> Self:
         """Steps shorter, the contact stiffer in proportion to their square: the error of the penalty must fall too."""
-        shorter = super().refined(factor)
-        assert isinstance(shorter, GeneralizedAlphaPenalty)
         return dataclasses.replace(
-            shorter,
+            super().refined(factor),
             stiffness=None if self.stiffness is None else self.stiffness * factor**2,
             damping=None if self.damping is None else self.damping * factor,
         )
 
-    def with_defaults(self, impact: Impact, end_time: float | None) -> GeneralizedAlphaPenalty:
+    def with_defaults(self, impact: Impact, end_time: float | None) -> Self:
         """The shorter the run the stiffer, as the front is the thinner; T* / 10 is as good as longer ones."""
         mass, time = impact.mass_per_length, min(end_time or math.inf, 0.1 * impact.slow_time_scale)
         return dataclasses.replace(
