@@ -21,7 +21,7 @@ from hermite_fe.elastic_wall import PEAKS
 from hermite_fe.model import MODELLED, BeamModel, beam_model
 from hermite_fe.run import Stepper, Trajectory, integrate
 from hermite_fe.stepping import ENERGIES
-from hermite_fe.warnings_of_run import lift_warnings, rounds_warnings, warnings_of_run
+from hermite_fe.warnings_of_run import end_warnings, lift_warnings, resolution_warnings, rounds_warnings
 from hermite_fe.whole_beam import begins
 
 __all__ = ["refusal", "simulate", "spreads"]
@@ -106,8 +106,9 @@ def simulate(
     history = history_of(impact, model, run, settings)
     warnings = rounds_warnings(run.most_iterations)
     if until is None and spreads(impact):
-        warnings += warnings_of_run(impact, choice, end, model, history)
-    elif until is None and begins(impact, end) and not impact.supported:
+        warnings += resolution_warnings(impact, end, choice.nodes, choice.integrator)
+        warnings += end_warnings(impact, end, choice.nodes, choice.far_field)
+    if until is None and (spreads(impact) or (begins(impact, end) and not impact.supported)):
         warnings += lift_warnings(impact, model, history)
     history = history.with_warnings(warnings)
     if run.failure:

@@ -12,26 +12,15 @@ from hermite_fe.compiled import Array
 from hermite_fe.far_fields import FarField
 from hermite_fe.integrators import Integrator
 from hermite_fe.model import BeamModel
-from hermite_fe.resolution import Choice, front
+from hermite_fe.resolution import front
 
-__all__ = ["lift_warnings", "rounds_warnings", "warnings_of_run"]
+__all__ = ["end_warnings", "lift_warnings", "resolution_warnings", "rounds_warnings"]
 
 ELEMENTS_PER_FRONT = 2.0  # fewer in ℓ deserve a warning
 MOST_ROUNDS = 100  # of the active set in one step; sound runs take ten or so
 BY_GRID = "; grid viscosity damps it, of which HermiteFE().for_whole_beam(impact) has none"
 LARGEST_LIFT = 1e-2  # of V₀t; r₀ may be too large by as much (docs/numerics.md)
 DAMPED = 4.0  # elements within √(cη), or within l_s, from which on all schemes lift a zone alike (within a fifth)
-
-
-def warnings_of_run(
-    impact: Impact, choice: Choice, end_time: float, model: BeamModel, history: ImpactHistory
-) -> list[str]:
-    """Sentences about a run to ``end_time``, s, of a front that spreads from the middle."""
-    return [
-        *resolution_warnings(impact, end_time, choice.nodes, choice.integrator),
-        *end_warnings(impact, end_time, choice.nodes, choice.far_field),
-        *lift_warnings(impact, model, history),
-    ]
 
 
 def rounds_warnings(most: int) -> list[str]:
