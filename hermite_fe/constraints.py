@@ -18,11 +18,11 @@ import numpy as np
 from bent_beam.errors import InputError
 from hermite_fe.banded import PAD, copy, factor, substitute_back, substitute_forward
 from hermite_fe.compiled import Array, Flags, Places, compiled, compiled_within
-from hermite_fe.system import ContactRows, System
+from hermite_fe.system import System
 
 __all__ = ["WORST", "Constraints", "ContactLaw", "Rows", "Solver", "ask_for_gaps", "ask_for_rebound", "constraints_of",
-           "count_rounds", "exchange", "find_candidates", "note_complementarity", "row_times",
-           "rows_of", "rows_times", "set_bounds", "solver_of", "some_gave_way", "update"]  # fmt: skip
+           "count_rounds", "exchange", "find_candidates", "note_complementarity", "row_times", "rows_times",
+           "set_bounds", "solver_of", "some_gave_way", "update"]  # fmt: skip
 
 SMALLEST_REACTION, PRODUCT = range(2)
 """Indices in ``worst``: the smallest impulse above what its constraint may pull, and the largest |p·slack|."""
@@ -70,11 +70,6 @@ class Constraints(NamedTuple):
     p: Array
     Gq: Array
     Gv: Array
-
-
-def rows_of(contacts: ContactRows) -> Rows:
-    """The arrays of ``contacts``."""
-    return Rows(*(getattr(contacts, name) for name in Rows._fields))
 
 
 def constraints_of(rows: Rows) -> Constraints:

@@ -10,7 +10,7 @@ import numpy as np
 from hermite_fe.active_set import NOT_FINITE, SOLVED, solve_free
 from hermite_fe.banded import PAD, combine, dot, multiply, row_sums, stiff_multiply
 from hermite_fe.compiled import Array, Flags, Places, compiled, compiled_within
-from hermite_fe.constraints import Constraints, ContactLaw, Rows, Solver, row_times, rows_of, solver_of
+from hermite_fe.constraints import Constraints, ContactLaw, Rows, Solver, row_times, solver_of
 from hermite_fe.elastic_wall import Springs
 from hermite_fe.maxwell import strains_of
 from hermite_fe.system import Bending, Branches, System
@@ -100,7 +100,8 @@ def problem_of(system: System, law: ContactLaw) -> Problem:
         second=system.second,
     )  # fmt: skip
     law = law._replace(strength=np.zeros(len(system.contacts)) + law.strength)
-    return Problem(matrices, rows_of(system.contacts), law, solver_of(system))
+    rows = Rows(*(getattr(system.contacts, name) for name in Rows._fields))
+    return Problem(matrices, rows, law, solver_of(system))
 
 
 def state_of(system: System, q: Array, v: Array) -> State:
