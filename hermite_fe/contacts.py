@@ -107,9 +107,6 @@ class NodeContact(Contact):
 
     def rows(self, beam: HermiteBeam, facing: Array, *, full: bool) -> ContactRows:
         x, count = beam.nodes, beam.nodes.size
-        tributary = np.zeros(count)
-        tributary[:-1] += 0.5 * beam.lengths
-        tributary[1:] += 0.5 * beam.lengths
         first = count // 2 if full else 0
         return ContactRows(
             dofs=2 * np.arange(count)[:, None],
@@ -118,7 +115,7 @@ class NodeContact(Contact):
             places=x,
             rank=np.abs(np.arange(count) - first),
             side=(np.arange(count) < first).astype(np.int64),
-            tributary=tributary,
+            tributary=np.convolve(beam.lengths, [0.5, 0.5]),
         )
 
 
