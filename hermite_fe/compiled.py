@@ -6,7 +6,6 @@ too. A file that cannot be read or written costs the time to compile, never a wr
 
 from __future__ import annotations
 
-import gc
 import hashlib
 import logging
 import os
@@ -113,8 +112,6 @@ def recompiling(call: Callable[[], Result]) -> Result:
     if not any(FOLDER.rglob("*.nbi")):
         message = "compiling, as always on a new machine or after an update: some twenty seconds"
         logging.getLogger("bent_beam").info(message)
-    collects = gc.isenabled()
-    gc.disable()  # what a compiler makes lives on: to search it for cycles again and again is a seventh of its time
     try:
         return call()
     except Exception as error:
@@ -122,6 +119,3 @@ def recompiling(call: Callable[[], Result]) -> Result:
             raise
         shutil.rmtree(FOLDER, ignore_errors=True)
         return call()
-    finally:
-        if collects:
-            gc.enable()
