@@ -144,10 +144,9 @@ def velocity_step(problem: Problem, state: State, memory: AlphaMemory, t: float,
     accelerations would have to compensate them, which is unstable for a stiff beam.
     """
     q = state.q
-    (scheme, vectors, _), smooth, _, velocity, _ = memory
+    (scheme, vectors, _), _, _, velocity, _ = memory
     share = h * scheme.beta / scheme.gamma  # a constraint comes to rest h − share ahead if it is closed now
     find_candidates(problem.rows, velocity, q, state.closed, h - share)
-    smooth.candidate[:] = False
     status = smooth_motion(problem, state, memory, t, h)
     vectors.b[:] = 0.0
     if status == SOLVED:
@@ -185,7 +184,6 @@ def position_step(problem: Problem, state: State, memory: AlphaMemory, t: float,
         smooth.candidate[j] = level == ACCELERATION and at_rest[j]
         smooth.least[j] = velocity.least[j] if smooth.candidate[j] else 0.0  # 0 or −∞, in any unit
         smooth.closed[j] = smooth.candidate[j]
-        smooth.target[j] = 0.0
     status = smooth_motion(problem, state, memory, t, h)
     if status == SOLVED:
         copy(velocity.least, position.least)
