@@ -145,10 +145,7 @@ class HermiteBeam:
     def interpolate(self, value: Array, slope: Array) -> Array:
         """Nodal dofs (value, slope interleaved), shape (dofs,), from fields at the nodes; with shear the sections'
         angle in place of the slope."""
-        q = np.empty(self.dofs)
-        q[0::2] = value
-        q[1::2] = slope
-        return q
+        return np.stack([value, slope], axis=1).ravel()
 
     def static(self, load: Array, supports: Mapping[int, float]) -> Array:
         """Static deflection K q = load with prescribed dofs ``{dof: value}``; shape (dofs,).

@@ -73,9 +73,7 @@ class HermiteFE(Composition):
         What is no impact of a front that spreads from the middle (rocking, a first touch off it, a second wall,
         supports, a stop) gets the parts that suit the whole beam.
         """
-        chosen = self
-        if not spreads(impact):
-            chosen = self.for_whole_beam(impact, impact.checked_end_time(end_time))
+        chosen = self if spreads(impact) else self.for_whole_beam(impact, impact.checked_end_time(end_time))
         return simulate(impact, end_time=end_time, save=save, progress=progress, **made_of(chosen))
 
     def chosen_for(self, impact: Impact, end_time: float) -> Self:
@@ -149,13 +147,9 @@ class HermiteFE(Composition):
         if isinstance(integrator, MoreauJean):  # nodes that rebound have another law in those that do not
             law = MoreauJean if contact.restitution else SignoriniPosition
             contact = dataclasses.replace(contact, restitution=0.0)
-        other = law(theta=0.5, time_step=integrator.time_step, growth=0.0)
-        sheared = impact.shear_stiffness is not None
-        return {
-            "contact_law": dataclasses.replace(
-                chosen, contact=contact, integrator=other.refined(1.0 if sheared else 0.5)
-            )
-        }
+        finer = 0.5 if impact.shear_stiffness is None else 1.0
+        other = law(theta=0.5, time_step=integrator.time_step, growth=0.0).refined(finer)
+        return {"contact_law": dataclasses.replace(chosen, contact=contact, integrator=other)}
 
     def varied(self, impact: Impact, random: np.random.Generator) -> Self:
         """A copy for an ensemble: elements, steps and impact law drawn at random.

@@ -30,7 +30,7 @@ SHARED = {*ENERGIES, "kinetic_energy", "strain_energy", "branch_energy", "contac
 """Sums that are the model's share of the whole beam's."""
 
 
-def refusal(impact: Impact, contact: Contact | None = None) -> str | None:
+def refusal(impact: Impact, contact: Contact | None) -> str | None:
     """The reason why ``impact`` cannot be simulated with ``contact``, naming the field (``None``: it can)."""
     speed = impact.velocity + impact.rotation * impact.first_touch
     if speed <= 0.0:
@@ -74,8 +74,7 @@ def simulate(
     :class:`bent_beam.SimulationError` (with the partial history) when a run cannot finish.
     """
     composition = resolution.Composition(**parts)
-    reason = refusal(impact, composition.contact)
-    if reason is not None:
+    if reason := refusal(impact, composition.contact):
         raise InputError(reason)
     full_beam = composition.full_beam or impact.off_centre
     end = impact.checked_end_time(end_time)
