@@ -27,11 +27,11 @@ import numpy as np
 from bent_beam.checks import affordable
 from bent_beam.errors import InputError
 from hermite_fe.active_set import SOLVED, solve_constrained
-from hermite_fe.banded import combine, copy, dot
+from hermite_fe.banded import copy, dot, product
 from hermite_fe.compiled import Array, Flags, compiled, compiled_within
 from hermite_fe.constraints import Constraints, ask_for_gaps, constraints_of, note_complementarity
 from hermite_fe.integrators.base import MOST_WORK, Integrator
-from hermite_fe.stepping import Problem, State, add_energies, add_impulses, end_step, forces_at, mean_forces
+from hermite_fe.stepping import Problem, State, add_energies, add_impulses, end_step, forces_at, mean_forces, prepare
 
 __all__ = ["MasslessBoundary"]
 STABLE = 0.8  # of a step, over the period of the fastest wave / 2π; Verlet's limit is 2
@@ -70,8 +70,7 @@ class MasslessBoundary(Integrator):
         matrices.M[:] = 0.0  # of this run from here on
         matrices.M[0] = np.where(inner, mass, 0.0)
         solver.fixed[solver.unknown[inner]] = True  # while the others find their equilibrium
-        none = np.zeros_like(matrices.K)
-        combine(none, none, matrices.K, 0.0, 1.0, solver.unknown, solver.S)
+        prepare(problem, 0.0, 1.0, 0.0, 0.0)  # K, and masses where nothing is solved for
         memory = MasslessMemory(
             constraints_of(problem.rows), inner, fastest(matrices.K, mass, inner), np.zeros_like(state.impulse),
             *np.zeros((5, state.q.size)),
@@ -127,12 +126,7 @@ def moved_masses(problem: Problem, stride: int) -> Array:
 def fastest(K: Array, mass: Array, inner: Flags) -> float:
     """A bound of the frequencies of the points with mass, everything else held, 1/s."""
     root = np.where(inner, 1.0 / np.sqrt(np.where(inner, mass, 1.0)), 0.0)
-    sums = np.abs(K[0]) * root**2
-    for k in range(1, 4):
-        coupled = np.abs(K[k, :-k]) * root[:-k] * root[k:]
-        sums[:-k] += coupled
-        sums[k:] += coupled
-    return float(np.sqrt(sums.max()))
+    return float(np.sqrt((root * product(np.abs(K), root)).max()))
 
 
 @compiled
