@@ -45,15 +45,13 @@ def row_sums(A: Array) -> Array:
 
     Row 0 has no left neighbour; its odd sum is not used.
     """
-    n = A.shape[1]
-    sums, sizes = np.zeros((2, n)), np.zeros((2, n))
+    n, both = A.shape[1], np.zeros((2, 2, A.shape[1]))
     for m in range(4):
-        band = A[m, : n - m]
-        sums[m % 2, : n - m] += band
-        sizes[m % 2, : n - m] += np.abs(band)
+        band = np.stack([A[m, : n - m], np.abs(A[m, : n - m])])
+        both[:, m % 2, : n - m] += band
         if m:
-            sums[m % 2, m:] += band
-            sizes[m % 2, m:] += np.abs(band)
+            both[:, m % 2, m:] += band
+    sums, sizes = both
     sums[np.abs(sums) < 1e-12 * sizes] = 0.0
     return sums
 

@@ -164,18 +164,15 @@ class HermiteBeam:
         stiffness, load = self.stiffness(), np.array(load, float)
         free = np.ones(self.dofs, bool)
         free[list(supports)] = False
-        bands = stiffness.copy()
-        for m in range(1, 4):
-            bands[m, :-m] *= free[:-m] & free[m:]
-        bands[0, ~free] = 1.0
         # rows and columns scaled to a unit diagonal: the raw matrix mixes w with θ and loses digits
-        scale = 1.0 / np.sqrt(bands[0])
+        bands, scale = stiffness.copy(), np.where(free, 1.0 / np.sqrt(stiffness[0]), 0.0)
         for m in range(4):
             bands[m, : self.dofs - m] *= scale[: self.dofs - m] * scale[m:]
+        bands[0, ~free] = 1.0
         factor = cholesky_banded(bands, lower=True)
         q = np.zeros(self.dofs)
         q[list(supports)] = list(supports.values())
         for _ in range(REFINEMENTS):  # with residuals by differences, which see what 12EI/Δx³·q rounds away
-            residual = np.where(free, load - stiff_product(stiffness, q), 0.0)
+            residual = load - stiff_product(stiffness, q)
             q += scale * cho_solve_banded((factor, True), scale * residual)
         return np.asarray(q)
