@@ -91,14 +91,13 @@ class HermiteFE(Composition):
         """
         if not impact.loaded_to_first_order or impact.wall_stiffness is not None:
             return self
-        contact, domain, mesh = self.contact, self.domain, self.mesh
+        contact, domain = self.contact, self.domain
         if domain is None and self.far_field is None:
             domain = resolution.chosen_domain(impact, end_time)
         if contact is None and impact.zone_pressure > 0.0 and (self.integrator is None or self.integrator.holds_zone):
             contact = NodeContact(hold=resolution.PRESSED_HOLD)
-        if mesh is None:
-            half = resolution.modelled_half_length(impact, domain)
-            mesh = resolution.chosen_mesh(impact, half, end_time, loaded=True)
+        half = resolution.modelled_half_length(impact, domain)
+        mesh = self.mesh or resolution.chosen_mesh(impact, half, end_time, loaded=True)
         return dataclasses.replace(self, mesh=mesh, contact=contact, domain=domain)
 
     def for_whole_beam(self, impact: Impact, end_time: float | None = None) -> Self:
@@ -109,10 +108,8 @@ class HermiteFE(Composition):
                 "domain cuts a free beam that touches at its middle alone, before one long wall, at first: "
                 f"leave it out here (got {self.domain!r})"
             )
-        wall, mesh = wall_scales(impact), self.mesh
-        if mesh is None:
-            mesh = UniformMesh(whole_beam.element(impact, end_time))
-        mesh = mesh.refined(self.refine)
+        wall = wall_scales(impact)
+        mesh = (self.mesh or UniformMesh(whole_beam.element(impact, end_time))).refined(self.refine)
         shortest = float(np.diff(mesh.nodes(impact.half_length)).min())
         contact = self.contact or NodeContact()
         chosen = self.integrator or whole_beam.scheme(impact, contact, shortest, end_time)
