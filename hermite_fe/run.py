@@ -161,17 +161,9 @@ class Stepper:
 
     def sample(self) -> dict[str, Any]:
         """The instant now, by the names of :class:`Trajectory`."""
-        state = self.state
-        return {
-            "time": self.instants[self.step],
-            "q": state.q.copy(),
-            "v": state.v.copy(),
-            "gap": self.contacts.gaps(state.q),
-            "impulse": state.impulse.copy(),
-            "held_impulse": state.held_impulse.copy(),
-            "closed": state.closed.copy(),
-            "sums": self.sums(),
-        }
+        arrays = {name: getattr(self.state, name).copy() for name in ("q", "v", "impulse", "held_impulse", "closed")}
+        gap = self.contacts.gaps(self.state.q)
+        return {"time": self.instants[self.step], **arrays, "gap": gap, "sums": self.sums()}
 
 
 def trajectory_of(
