@@ -14,10 +14,8 @@ reaction is exact. What they share is what closed rows do (:meth:`Contact.law`),
 options keep closed constraints closed whatever they pull, for comparison and for the infinite beam's first instants
 only:
 
-- ``hold_until``: nothing that has closed opens before this time (a bilateral start). No mesh resolves the first
-  instants, when the front is thinner than an element; the impacts of that phase may leave the zone with a velocity
-  off the wall ("double detachment", thesis 3.3.5). Off unless stated: a long first step makes it needless
-  (:mod:`hermite_fe.resolution`).
+- ``hold_until``: nothing that has closed opens before this time: a bilateral start, which the long first step of
+  :mod:`hermite_fe.resolution` makes needless. Off unless stated.
 - ``hold``: a constraint that has closed is not released until the front is so many constraints further. What is held
   so vanishes as elements shrink. Behind a moving front the exact reaction is zero, and noise of either sign there
   turns into pushes off the wall. Off unless stated, but in runs that measure what a pressing load changes.
