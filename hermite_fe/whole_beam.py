@@ -67,12 +67,11 @@ def scheme(impact: Impact, contact: Contact, element: float, end_time: float | N
     damping is felt.
     """
     begin, end = impact.wall_span
-    sheared = impact.shear_stiffness is not None
     if end_time is not None and begins(impact, end_time) and not damping_is_felt(impact, element):
         return scheme_for(impact, contact).with_steps(LONGEST_FIRST_STEP * end_time, LARGEST_STEP)
     pressed = impact.net_load * impact.slow_time_scale > PRESSED * impact.mass_per_length * impact.velocity
     point = (impact.kappa_over_nu >= ONE_POINT or begin == end) and not pressed
-    if sheared and impact.wall_stiffness is None and not point:
+    if impact.shear_stiffness is not None and impact.wall_stiffness is None and not point:
         return MoreauJean(theta=0.5)
     return scheme_for(impact, contact, theta=0.5)
 
