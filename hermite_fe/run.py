@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from bent_beam.checks import MOST_INSTANTS, affordable
+from bent_beam.checks import MOST_INSTANTS, affordable, whole
 from bent_beam.errors import InputError
 from hermite_fe.active_set import CYCLING, NOT_FINITE, SINGULAR, SOLVED
 from hermite_fe.banded import product, stiff_product
@@ -192,16 +192,16 @@ def saved_steps(instants: Array, save: int | Sequence[float] | Array) -> Places:
     """
     end = instants[-1]
     if np.ndim(save) == 0:
-        count = int(np.asarray(save))
-        if count != save or not 2 <= count <= MOST_INSTANTS:
-            raise InputError(f"save must be a whole number from 2 to {MOST_INSTANTS}, or times (got {save!r})")
+        count = whole("save", save, 2)  # type: ignore[arg-type]
+        if count > MOST_INSTANTS:
+            raise InputError(f"save must be {MOST_INSTANTS} at most (got {count})")
         wanted = end * np.linspace(0.0, 1.0, count) ** 2
     else:
         wanted = np.asarray(save, float)
         if wanted.ndim != 1 or wanted.size < 1 or not np.all(np.isfinite(wanted)):
             raise InputError("save must be a whole number of at least 2, or a list of finite times")
         if np.any(np.diff(wanted) <= 0.0) or wanted[0] < 0.0 or wanted[-1] > end * (1.0 + 1e-9):
-            raise InputError(f"save must hold increasing times from 0 to the end time {end!r}")
+            raise InputError(f"save must hold increasing times from 0 to the end time {float(end)!r}")
     middles = 0.5 * (instants[1:] + instants[:-1])
     return np.unique(np.concatenate([[0], np.searchsorted(middles, wanted)]))
 

@@ -28,7 +28,7 @@ from bent_beam.checks import affordable
 from bent_beam.errors import InputError
 from hermite_fe.active_set import SOLVED, solve_constrained
 from hermite_fe.banded import copy, dot, product
-from hermite_fe.compiled import Array, Flags, compiled, compiled_within
+from hermite_fe.compiled import Array, Flags, compiled, compiled_within, recompiling
 from hermite_fe.constraints import Constraints, ask_for_gaps, constraints_of, note_complementarity
 from hermite_fe.integrators.base import MOST_WORK, Integrator
 from hermite_fe.stepping import Problem, State, add_energies, add_impulses, end_step, forces_at, mean_forces, prepare
@@ -75,7 +75,7 @@ class MasslessBoundary(Integrator):
             constraints_of(problem.rows), inner, fastest(matrices.K, mass, inner), np.zeros_like(state.impulse),
             *np.zeros((5, state.q.size)),
         )  # fmt: skip
-        if settle(problem, state, memory, 0.0) != SOLVED:
+        if recompiling(lambda: settle(problem, state, memory, 0.0)) != SOLVED:
             raise InputError("integrator.kind: the points that keep mass in massless_boundary must hold all others")
         memory.push[:] = memory.conditions.p
         return memory

@@ -14,6 +14,7 @@ import pytest
 from here import ROOT
 
 from bent_beam.cases import case_from_tables
+from bent_beam.errors import InputError
 from bent_beam.impact import Impact
 from bent_beam.measure.numbers import Number
 from bent_beam_programs.predictor.page import MODEL, SIMULATION, page, script, write_page
@@ -180,6 +181,41 @@ def test_shipped_cases_are_read_and_what_the_page_lacks_is_refused_by_name() -> 
     assert "beam.bending_stiffness is not on this page" in found["two_walls"]
     assert "beam.ends is not on this page" in found["tube_between_plates"]
     assert "run = true is not a number" in found["nonsense"]
+
+
+BAR = '[section]\nkind = "round_bar"\ndiameter = 0.01\nyoungs_modulus = 7e10\ndensity = 2700.0\n'
+BAR += "[beam]\nlength = 1.0\nsagitta = 0.01\n[impact]\nvelocity = 1.0\n"
+
+
+@needs_node
+@pytest.mark.parametrize(
+    ("line", "other", "said"),
+    [
+        ("density = 2700.0", "", "section.density is missing"),
+        ("diameter = 0.01", "", "section.diameter is missing"),
+        ("diameter = 0.01", "diameter = 0.01\nwidth = 0.1", "section.width is none of a round_bar"),
+        ("sagitta = 0.01", "", "give one of beam.sagitta, beam.curvature, beam.dogleg"),
+        ("sagitta = 0.01", "sagitta = 0.01\ncurvature = 0.1", "give one of beam.sagitta"),
+        ("sagitta = 0.01", "curvature = 0.1\nsagitta_length = 0.5", "sagitta_length has no effect"),
+        ("velocity = 1.0", "", "give one of impact.velocity, impact.drop_height"),
+        ("velocity = 1.0", "velocity = 1.0\ngravity = 9.81\nacceleration = 1.0", "say the same"),
+        ("velocity = 1.0", "velocity = 1.0\ngravity_angle = 30.0", "gravity_angle has no effect"),
+        ("velocity = 1.0", "velocity = 1.0\n[wall]\ndamping_ratio = 0.1", "wall.damping_ratio has no effect"),
+    ],
+)
+def test_the_page_makes_nothing_up_of_a_case_that_bentbeam_refuses(line: str, other: str, said: str) -> None:
+    text = BAR.replace(line, other)
+    with pytest.raises(InputError):
+        case_from_tables(tomllib.loads(text))
+    read = "given.map((text) => { try { return Case.read(text); } catch (error) { return error.message; } })"
+    assert said in evaluated(read, [text])[0]
+
+
+@needs_node
+def test_a_drop_at_an_angle_is_under_standard_gravity_on_the_page_too() -> None:
+    text = BAR.replace("velocity = 1.0", "drop_height = 0.05\ngravity_angle = 30.0")
+    expected = case_from_tables(tomllib.loads(text)).impact.velocity
+    assert evaluated("given.map((text) => Beam.impact(Case.read(text)).velocity)", [text])[0] == pytest.approx(expected)
 
 
 def page_and_bounce(inputs: list[dict[str, Any]], share: float = 1.0) -> tuple[int, list[str]]:

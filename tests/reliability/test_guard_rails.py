@@ -95,7 +95,7 @@ def test_the_budget_of_a_long_run_closes_and_its_memory_stays_flat(steps):
             save=20,
         )
 
-    run(max(steps // 100, 10))  # kernels are loaded then, and xarray is imported
+    assert run(max(steps // 100, 10)).dataset is not None  # kernels are loaded then, and xarray is imported
     before = largest_memory()
     history = run(steps)
     budget = history.energy_budget()

@@ -185,5 +185,5 @@ const Beam = (() => {
   /** Stress of a bending moment together with the axial force, Pa. */
   const stress = (b, moment) => moment / b.modulus + abs(b.tension) / b.area;
 
-  return { UNITS, CHOICES, FIELDS, START, complaints, bow, impact, dampingTime, scales, problem, stress };
+  return { GRAVITY, UNITS, CHOICES, FIELDS, START, complaints, bow, impact, dampingTime, scales, problem, stress };
 })();

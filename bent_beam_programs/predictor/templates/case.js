@@ -95,7 +95,12 @@ const Case = (() => {
     "impact.velocity": (i, v) => { i.approach = "velocity"; i.velocity = v; },
     "impact.drop_height": (i, v) => { i.approach = "drop"; i.drop_height = v; },
     "impact.gravity": (i, v) => { i.gravity = v; },
-    "impact.gravity_angle": (i, v) => { i.gravity *= Math.abs(v) === 90 ? 0 : Math.cos(v * Math.PI / 180); },
+    "impact.gravity_angle": (i, v) => {
+      if (v && i.gravity === null && i.approach !== "drop")
+        throw new Error("impact.gravity_angle has no effect without impact.gravity");
+      i.gravity ??= i.approach === "drop" ? Beam.GRAVITY : 0;
+      i.gravity *= Math.abs(v) === 90 ? 0 : Math.cos(v * Math.PI / 180);
+    },
     "impact.acceleration": (i, v) => { const b = Beam.impact(i); i.load = (v - b.acceleration) * b.mass; },
     "wall.curvature": (i, v) => { i.wall_curvature = v; },
     "wall.stiffness": (i, v) => { i.wall_stiffness = v; },
@@ -111,6 +116,32 @@ const Case = (() => {
     [/./, "bentbeam predict takes it"],
   ];
 
+  const NEEDED = ["section.youngs_modulus", "section.density", "beam.length"];
+  const ONE_OF = [["beam.sagitta", "beam.curvature", "beam.dogleg"], ["impact.velocity", "impact.drop_height"]];
+  const NOT_BOTH = [["impact.gravity", "impact.acceleration"]];
+  const ONLY_WITH = [["beam.sagitta_length", "beam.sagitta"], ["wall.damping_ratio", "wall.stiffness"],
+    ["section.fluid_density", "section.outer_diameter"]];
+  const BORE = ["section.inner_diameter", "section.wall_thickness"];
+
+  /** Why values by table.key are no case, as `bentbeam` would say; null if they are one. The page makes nothing up. */
+  function incomplete(values) {
+    const given = (name) => name in values, kind = values["section.kind"], of = (name) => `section.${name}`;
+    if (!given("section.kind")) return "section.kind is missing";
+    const shape = SHAPES[one("section.kind", kind, Object.keys(SHAPES))].map(of).filter((name) => !BORE.includes(name));
+    const missing = [...shape, ...NEEDED].find((name) => !given(name));
+    const foreign = [...Object.values(SHAPES).flat().map(of), ...BORE].find((name) => (
+      given(name) && !shape.includes(name) && !(kind === "pipe" && BORE.includes(name))));
+    const ways = kind === "pipe" ? [...ONE_OF, BORE] : ONE_OF;
+    const open = ways.find((way) => way.filter(given).length !== 1);
+    const twice = NOT_BOTH.find((way) => way.every(given));
+    const alone = ONLY_WITH.find(([name, other]) => given(name) && !given(other));
+    if (missing) return `${missing} is missing`;
+    if (foreign) return `${foreign} is none of a ${kind}`;
+    if (open) return `give one of ${open.join(", ")}`;
+    if (twice) return `${twice.join(" and ")} say the same: give one of them`;
+    return alone ? `${alone[0]} has no effect without ${alone[1]}` : null;
+  }
+
   /** Inputs of a case file. Throws Error that names the key which this page does not have. */
   function read(text) {
     const given = tables(text), found = { ...Beam.START, gravity: null, yield_stress: null, damping_ratio: null };
@@ -120,7 +151,8 @@ const Case = (() => {
     const others = Object.keys(values).filter((name) => !known(name)).map((name) => (
       `${name} is not on this page: ${INSTEAD.find(([which]) => which.test(name))[1]}`));
     if (others.length) throw new Error(others.join("; "));
-    for (const name of ["section.kind", "beam.length"]) if (!(name in values)) throw new Error(`${name} is missing`);
+    const reason = incomplete(values);
+    if (reason) throw new Error(reason);
     for (const name of Object.keys(KEYS)) if (name in values) KEYS[name](found, values[name]); // in this order
     return found;
   }

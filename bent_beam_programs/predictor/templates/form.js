@@ -65,6 +65,7 @@ const Form = (() => {
     find("#drag-label").textContent = `Drag: ${field.label}`;
   }
   function drag() {
+    if (!dragged) return; // no field has had such a value yet
     const { field, value } = dragged;
     inputs[field.name] = Number((value * 4 ** Number(find("#drag").value)).toPrecision(4));
     find(`#in-${field.name}`).value = shown(field);
