@@ -1,4 +1,9 @@
-"""The page from its template. Nothing in it refers to anything outside."""
+"""The page from its template. Nothing in it refers to anything outside.
+
+Its scripts stand in ``templates/``, in the order of ``MODEL``, ``SIMULATION`` and ``PAGE``; the first line of each says
+what it is for. After a change, write the guide's copy anew: ``bentbeam predictor --out docs/predictor.html
+--overwrite``.
+"""
 
 from __future__ import annotations
 

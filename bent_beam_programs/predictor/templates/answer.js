@@ -7,7 +7,7 @@ const Answer = (() => {
   const NAMES = ["restitution", "impulse", "lastContact", "moment", "force"];
   const quick = ({ wall }) => ({ elements: 32, steps: wall ? 1000 : 1600, longest: 3 }); // for a first picture
 
-  /** Elements a half beam, steps a T*, law: finer where a front is thin or damping small (hermite_fe/resolution.py). */
+  /** Elements a half beam, steps a T*, law: finer where a front is thin or damping small (hermite_fe/whole_beam.py). */
   function resolution(p) {
     const point = p.kappa >= 2 && p.load + p.pull <= 0.5, hard = p.kappa < 0.35 || p.eta < 3e-4;
     const base = { elements: hard ? 200 : 100, steps: hard ? 16000 : 8000, atPosition: point };

@@ -89,7 +89,7 @@
 
   /** The damping whose stress is largest: the headline. */
   const worst = ({ numbers }) => numbers.reduce(
-    (best, { moment }, i) => (moment.value > numbers[best].moment.value ? i : best), 0);
+    (best, { moment }, i) => (best < 0 || moment.value > numbers[best].moment.value ? i : best), -1);
 
   /** Numbers with their bars, as far as they are there. */
   function tell(of) {
