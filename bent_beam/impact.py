@@ -27,7 +27,7 @@ from bent_beam.scales import Scales
 __all__ = ["Impact"]
 
 ENDLESS = 1e30  # time, and change of the free motion by the loads, in the problem's own units
-FIRST_SPREAD = 0.005  # T*: until then waves from the ends change the impulse by 1 % at most, of flat contacts by more
+WAVES_FELT = 0.005  # T*: until then waves from the ends change the impulse by 1 % at most, of flat contacts by more
 BEFORE_WAVES_RETURN = 0.01  # T*: the earliest that they change the impulse by 2 %
 SCALES = ("wave_constant", "time_scale", "length_scale", "slow_time_scale", "epsilon")
 GROUPS = ("epsilon_alpha", "epsilon_chi", "epsilon_psi", "epsilon_axial", "relative_damping", "kappa_over_nu")

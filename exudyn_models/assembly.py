@@ -150,7 +150,7 @@ def _wall(beam: Beam, chosen: Chosen) -> Wall:
     free = before & ((s > s[0]) | (s[0] == 0.0) | (impact.left_end == "free"))
     free &= (s < s[-1]) | (impact.right_end == "free")
     lengths = np.where(before[1:] & before[:-1], np.diff(s), 0.0)
-    first_spread = BEFORE_WAVES_RETURN * impact.slow_time_scale / scaling.end_time
+    waves_return = BEFORE_WAVES_RETURN * impact.slow_time_scale / scaling.end_time
     # a material that damps waves at grid scale makes hits plastic itself: more would stop nodes ahead of the wall
     damped = scaling.material_damping > VISCOSITY * element_times(beam.lengths, scaling.shear_length).min()
     thin = thin_front(scaling.kappa) and not supports_or_plate(impact) and not damped
@@ -161,8 +161,8 @@ def _wall(beam: Beam, chosen: Chosen) -> Wall:
         lengths=lengths,
         centre=centre,
         half=not chosen.full_beam,
-        first_spread=first_spread,
-        plastic=chosen.plastic if thin and first_spread >= 1.0 and not explicit else 0.0,
+        waves_return=waves_return,
+        plastic=chosen.plastic if thin and waves_return >= 1.0 and not explicit else 0.0,
         lifts=impact.lifts or beam.shears or impact.damping > 0.0 or impact.kappa_over_nu >= 1.0,
         explicit=explicit,
         opposite=None if opposite is None else -opposite / scaling.deflection,

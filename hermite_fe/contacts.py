@@ -20,7 +20,7 @@ only:
   so vanishes as elements shrink. Behind a moving front the exact reaction is zero, and noise of either sign there
   turns into pushes off the wall. Off unless stated, but in runs that measure what a pressing load changes.
 
-Neither acts after t_w = 0.005 T* (:data:`bent_beam.impact.FIRST_SPREAD`), from when on waves from the ends may move the
+Neither acts after t_w = 0.005 T* (:data:`bent_beam.impact.WAVES_FELT`), from when on waves from the ends may move the
 zone. A held constraint may pull; what it pulled is recorded as ``held_impulse``, and how hard as ``hold`` in the
 settings.
 """

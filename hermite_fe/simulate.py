@@ -12,7 +12,7 @@ from bent_beam.errors import InputError, SimulationError
 from bent_beam.fields import describe
 from bent_beam.history import ImpactHistory
 from bent_beam.hysteresis import branches_of
-from bent_beam.impact import FIRST_SPREAD, Impact
+from bent_beam.impact import WAVES_FELT, Impact
 from bent_beam.loads import UNSHEARED, unmodelled
 from hermite_fe import resolution
 from hermite_fe.compiled import Array, recompiling
@@ -89,7 +89,7 @@ def simulate(
         model.velocity,
         choice.integrator,
         end,
-        law=choice.contact.checked_law(model.system.contacts, FIRST_SPREAD * impact.slow_time_scale),
+        law=choice.contact.checked_law(model.system.contacts, WAVES_FELT * impact.slow_time_scale),
         save=save,
         progress=progress,
         until=None if until is None else lambda run: until(model, run),

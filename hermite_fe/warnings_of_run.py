@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from bent_beam.history import REFLECTED, ImpactHistory
-from bent_beam.impact import FIRST_SPREAD, Impact
+from bent_beam.impact import WAVES_FELT, Impact
 from hermite_fe.compiled import Array
 from hermite_fe.far_fields import FarField
 from hermite_fe.integrators import Integrator
@@ -103,7 +103,7 @@ def lift_warnings(impact: Impact, model: BeamModel, history: ImpactHistory) -> l
     time = history.time
     end = time[-1]
     bounces = impact.wall_stiffness is not None  # it gives back what it took
-    if bounces or impact.lifts or end > FIRST_SPREAD * impact.slow_time_scale:
+    if bounces or impact.lifts or end > WAVES_FELT * impact.slow_time_scale:
         return []
     places = model.system.contacts.places[~model.behind] - impact.first_touch
     nodes, worst, widest = model.beam.nodes - impact.first_touch, 0.0, np.zeros(model.beam.nodes.size, bool)

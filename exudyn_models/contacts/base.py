@@ -6,11 +6,11 @@ there.
 
 Which captured nodes are held, and until when (:class:`HeldStrip`): what the node impacts of the first instants, which
 no mesh resolves, leave behind would lift the zone for a long time. So all captured nodes are held for a first share
-``START`` of the run, but not in runs that last longer than the first spread, nor where load, damping or shear draws the
-beam off the wall or it touches in a point: a held start makes the largest moment 5 % too large at κ/ν = 0.32 with ζ =
-0.2 %, 15 % at 1.2. Behind the front the exact reaction vanishes; a one-sided law turns the numerical noise there into
-pushes that lift the beam. A ``hold`` of so many elements keeps each captured node until the front is that much further.
-It too ends with the first spread: then waves from the ends are back, and may lift what they will.
+``START`` of the run, but not in runs that last until waves are back from the ends, nor where load, damping or shear
+draws the beam off the wall or it touches in a point: a held start makes the largest moment 5 % too large at κ/ν = 0.32
+with ζ = 0.2 %, 15 % at 1.2. Behind the front the exact reaction vanishes; a one-sided law turns the numerical noise
+there into pushes that lift the beam. A ``hold`` of so many elements keeps each captured node until the front is that
+much further. It too ends when waves are back from the ends, which may lift what they will.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ class Wall:
     nodes : numbers of the beam's nodes that may touch, ascending; centre : the node at x = 0;
     lengths : of the beam's elements before the wall, 0 of others, (elements,); all are 0 before a stop;
     half : only x ≥ 0 is modelled;
-    first_spread : until when (in end times) no wave is back from the ends, and the zone spreads by itself;
+    waves_return : until when (in end times) no wave is back from the ends, and the zone spreads by itself;
     lifts : load, damping or shear lifts the zone from the first, or the beam touches in a point: no start is held;
     plastic : share, 0 to 1, of the damping that keeps nodes from rebounding at a thin front, of a zone that spreads for
         the first time; 0 elsewhere;
@@ -56,7 +56,7 @@ class Wall:
     lengths: Array
     centre: int
     half: bool
-    first_spread: float
+    waves_return: float
     plastic: float
     lifts: bool
     explicit: bool
@@ -82,11 +82,11 @@ class HeldStrip:
     behind the front until ``until``, of the end time."""
 
     def __init__(self, wall: Wall, hold: int, start: float | None = None) -> None:
-        if wall.explicit or wall.first_spread < 1.0 or wall.lifts:
+        if wall.explicit or wall.waves_return < 1.0 or wall.lifts:
             start = 0.0 if start is None else start
         self.hold = hold
-        self.start = min(START if start is None else start, wall.first_spread)
-        self.until = wall.first_spread if hold else self.start
+        self.start = min(START if start is None else start, wall.waves_return)
+        self.until = wall.waves_return if hold else self.start
         self.captured = np.zeros(wall.nodes.size, bool)
         self._distance = np.abs(wall.nodes - wall.centre)
         self._sides = (wall.nodes >= wall.centre, wall.nodes < wall.centre)

@@ -62,7 +62,7 @@ def chosen_stiffness(beam: Beam, wall: Wall) -> float:
     k = min(max(int(np.searchsorted(s, front)), 1), s.size - 1)
     length = s[k] - s[k - 1]
     asked = front**2 * element_times(length, beam.scaling.shear_length) / length / s[k]
-    late = beam.shears and wall.first_spread < 1.0  # steps follow shear waves, and not the front
+    late = beam.shears and wall.waves_return < 1.0  # steps follow shear waves, and not the front
     return STIFFNESS if late else max(STIFFNESS, float(asked) ** 2)
 
 
