@@ -180,7 +180,7 @@ def questions(
     def load(first: Sequence[float | None] | None, kappa: float) -> Any:
         if first is None or first[0] is not None:
             return first
-        return (-kappa * ((*first, 0.0)[3] or 0.0), *first[1:])
+        return (0.0 - kappa * ((*first, 0.0)[3] or 0.0), *first[1:])  # 0, not −0
 
     asked: Sequence[Sequence[float | None] | None] = firsts or [None]
     return [

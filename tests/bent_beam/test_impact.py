@@ -46,6 +46,12 @@ def test_every_load_is_in_case_files_and_what_a_path_does_not_know_is_refused_by
     assert loads_of(Impact).keys() <= {name for table in TABLES.values() for name in declared(table)}
 
 
+def test_before_a_wall_that_curves_with_it_a_beam_is_bent_less() -> None:
+    one, other = Impact.whole_beam(0.5).replace(wall_curvature=0.2), Impact.whole_beam(0.3)
+    assert one.relative_curvature == pytest.approx(0.3)
+    assert one.kappa_over_nu == pytest.approx(other.kappa_over_nu)
+
+
 def test_a_first_touch_without_a_bow_whose_apex_it_is_is_refused():
     bow = Impact.whole_beam(0.5).replace(first_touch=0.1)
     assert bow.replace(curvature=0.0, fourth_derivative=0.1).first_touch == 0.1

@@ -240,6 +240,8 @@ def test_a_bow_free_of_stress_is_let_go_by_a_tension_as_it_flies() -> None:
     """μ a₀ = −N K in free flight: α = −κN."""
     pulled, told = questions([HermiteFE()], [0.4], [(None, 0.0, 0.0, 2.0), (1.0, 0.0, 0.0, 2.0)])
     assert (pulled.first, told.first) == ((-0.8, 0.0, 0.0, 2.0), (1.0, 0.0, 0.0, 2.0))
+    (slack,) = questions([HermiteFE()], [0.4], [(None, 1.0, 0.0)])
+    assert slack.first == (0.0, 1.0, 0.0, 0.0) and str(slack.first[0]) == "0.0", "no force, no acceleration"
 
 
 def test_the_default_rows_are_the_cases_of_the_thesis_that_touch_with_a_zone() -> None:

@@ -120,6 +120,15 @@ def test_sound_runs_whose_means_of_the_force_swing_have_nothing_to_warn_of(integ
     assert balance_of(history).warnings == history.warnings == []
 
 
+@pytest.mark.parametrize("unit", [1.0, 1e-9])
+def test_a_push_is_small_beside_the_largest_one_however_small_that_is(unit: float) -> None:
+    """Two nodes push to the end, one of them off the wall by a tenth of V₀t, and one more by next to nothing."""
+    time, x = np.linspace(0.0, 1.0, 11), np.linspace(0.0, 1.0, 3)
+    gap = np.outer(time, [0.0, 0.1, 0.2])
+    found = balance_of(history_of(time, x, impact=WHOLE, gap=gap, impulse=np.outer(time, [unit, unit, 1e-9 * unit])))
+    assert found.gap_of_push == pytest.approx(0.1)
+
+
 def test_a_beam_in_the_opposite_wall_is_in_a_wall() -> None:
     """Flat, 0.3 m behind the apex of a beam before a curved wall."""
     x, time = np.linspace(0.0, 1.0, 5), np.linspace(0.0, 1.0, 11)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from histories import history_of, pushed_until, rod
 
+from bent_beam.as_json import json_text
 from bent_beam.cases import load_case
 from bent_beam.free_flight import LOWEST_PERIOD, Separation, cannot_return, has_left
 from bent_beam.history import ImpactHistory
@@ -338,6 +339,14 @@ def test_a_run_is_over_a_period_of_the_lowest_mode_after_its_last_push() -> None
     assert not over(6.0 + 0.99 * LOWEST_PERIOD, 1.0, lambda: gone)
     assert over(6.0 + 1.01 * LOWEST_PERIOD, 1.0, lambda: gone)
     assert not over(8.0, 1.0, lambda: gone, closed=True)
+
+
+def test_the_last_contact_is_half_a_saved_interval_about_its_end_or_before_springs_one() -> None:
+    """A rigid wall lets go between two saved instants, springs at the step that is taken for the end."""
+    run = pushed_until(0.3)
+    soft = run.impact.replace(wall_stiffness=1e3)
+    elastic = ImpactHistory.of(run.dataset.assign_attrs(impact=json_text(dataclasses.asdict(soft))))
+    assert (whole_impact(run).within, whole_impact(elastic).within) == pytest.approx((0.025, 0.05))
 
 
 def test_a_beam_returns_where_it_is_nearest_to_the_wall_and_as_slowly_as_it_has_left_since() -> None:

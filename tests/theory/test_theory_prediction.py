@@ -150,6 +150,8 @@ def test_a_quartic_bow_sends_waves_from_its_ends() -> None:
         for q in (1e-3, 0.1, 10.0)
     )
     assert bare == small > some > large > 0.0
+    share = 2.0 * math.sqrt(2.0) * 10.0 * large / float(contact_parameters(0.5).r0)  # of the impulse (docs/theory.md, 9)
+    assert share == pytest.approx(0.02)
 
 
 def test_a_force_along_x_swings_the_reaction_by_two_per_cent_at_the_limit() -> None:
