@@ -150,7 +150,7 @@ def test_a_quartic_bow_sends_waves_from_its_ends() -> None:
         for q in (1e-3, 0.1, 10.0)
     )
     assert bare == small > some > large > 0.0
-    share = 2.0 * math.sqrt(2.0) * 10.0 * large / float(contact_parameters(0.5).r0)  # of the impulse (docs/theory.md, 9)
+    share = 2.0 * math.sqrt(2.0) * 10.0 * large / float(contact_parameters(0.5).r0)  # of the impulse (docs/theory.md)
     assert share == pytest.approx(0.02)
 
 
