@@ -11,7 +11,7 @@ JOBS ?= 2
 .PHONY: help report test verify lint bench coverage stored faults fuzz docs gallery update wheel lowest newest clean
 
 help:
-	@echo "make report   match both simulations with the theory and write out/report/index.html"
+	@echo "make report   match the simulations with the theory and write out/report/index.html"
 	@echo "make test     the test suite (about five minutes on two cores)"
 	@echo "make verify   longer checks; make fuzz: random input and kills; make bench: speed, as ratios"
 	@echo "make coverage do the error bars hold? methods drawn at random against the theory (SEED=N draws the same again)"

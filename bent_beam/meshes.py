@@ -95,7 +95,8 @@ class _Mesh(Part):
     where: ClassVar[str] = "mesh"
 
     def refined(self, factor: float) -> Self:
-        """The same mesh with elements ``factor`` times shorter everywhere."""
+        """The same mesh with elements ``factor`` times shorter everywhere. A mesh with lengths of other names says
+        itself what becomes of them."""
         given = {name: value for name, value in vars(self).items() if value is not None}
         shorter = {name: given[name] / factor for name in ("element_length", "largest") if name in given}
         slower = {name: given[name] ** (1.0 / factor) for name in ("growth", "growth_outside") if name in given}

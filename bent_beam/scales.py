@@ -26,7 +26,8 @@ class Scales(Part):
     curvature: Annotated[float, Quantity("1/m", "K, the bow at the first touch", least=0.0)]
     velocity: Annotated[float, Quantity("m/s", "V₀ towards the wall", above=0.0)]
     acceleration: Annotated[
-        float, Load("m/s²", "a₀ at the first touch; free flight unless given", group="alpha", powers=(0, 2))
+        float,
+        Load("m/s²", "a₀ at the first touch; in a case file free flight unless given", group="alpha", powers=(0, 2)),
     ] = 0.0
     curvature_rate: Annotated[float, Load("1/(m s)", "c₀ = ∂³y₀/∂x²∂t", group="chi", powers=(2, 1))] = 0.0
     fourth_derivative: Annotated[float, Load("1/m³", "q₀ = ∂⁴y₀/∂x⁴", group="psi", powers=(4, 0))] = 0.0

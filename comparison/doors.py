@@ -1,4 +1,5 @@
-"""The doors for Python: what the commands of the same names answer, with the same numbers."""
+"""The doors for Python: what the commands of the same names answer, with the same numbers. What a command has more of,
+such as hits or other end times, its driver has: the module of that name."""
 
 from __future__ import annotations
 

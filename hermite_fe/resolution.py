@@ -1,4 +1,4 @@
-"""The one place where mesh, steps and parts are chosen from the problem, by scaling alone.
+"""Mesh, steps and parts chosen from the problem, by scaling alone (of a whole impact: :mod:`hermite_fe.whole_beam`).
 
 In units of the fast layer (l*, t*; :mod:`bent_beam.impact`), with κ for κ/ν: the undisturbed parabola would meet the
 wall at ξ = √(2τ/κ), so that the front moves like λ̂√τ with λ̂ = √(2/κ) as a crude upper estimate. The beam bends ahead of

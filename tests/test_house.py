@@ -1,4 +1,4 @@
-"""The house: imports run downwards and are declared, the paths never meet, nothing above imports a path by name."""
+"""The house: imports run downwards and are declared, the paths never meet, comparison knows no path by name."""
 
 import ast
 import os
