@@ -129,6 +129,13 @@ def test_a_push_is_small_beside_the_largest_one_however_small_that_is(unit: floa
     assert found.gap_of_push == pytest.approx(0.1)
 
 
+def test_missing_energy_is_a_share_of_what_there_was_and_of_the_work_of_loads() -> None:
+    """Of 2 J and 3 J of work half a joule is missing at the end: a tenth."""
+    time, x = np.linspace(0.0, 1.0, 3), np.linspace(0.0, 1.0, 3)
+    run = history_of(time, x, impact=WHOLE, kinetic_energy=2.0 + 2.5 * time, work_of_loads=3.0 * time)
+    assert balance_of(run).energy == pytest.approx(0.1)
+
+
 def test_a_beam_in_the_opposite_wall_is_in_a_wall() -> None:
     """Flat, 0.3 m behind the apex of a beam before a curved wall."""
     x, time = np.linspace(0.0, 1.0, 5), np.linspace(0.0, 1.0, 11)
