@@ -101,6 +101,16 @@ def test_one_run_without_damping_has_no_number_of_the_whole_impact() -> None:
     assert found["peak_moment"] is None and any("bentbeam bounce" in line for line in found["warnings"])
 
 
+@pytest.mark.parametrize("place", [0.0, 0.4, 1.0])
+def test_gaps_are_compared_wherever_both_runs_have_the_beam(place: float) -> None:
+    """They differ by 0.3 V₀t at one place, the gap on other nodes being linear between them."""
+    time, coarse, fine = np.linspace(0.0, 2.0, 3), np.linspace(0.0, 1.0, 6), np.linspace(0.0, 1.0, 11)
+    impact = Impact.whole_beam(0.5)
+    one = history_of(time, coarse, impact=impact, gap=np.outer(time, np.where(coarse == place, 0.3, 0.0)))
+    other = history_of(time, fine, impact=impact)
+    assert compare_histories(one, other)["largest_difference"]["gap"] == pytest.approx(0.3)
+
+
 def test_of_two_runs_of_the_whole_beam_both_halves_are_compared_and_drawn() -> None:
     time, x = np.array([0.0, 1.0, 2.0]), np.linspace(-1.0, 1.0, 5)  # gaps are told over V₀t
     impulse = np.outer(time, [1.0, 0.0, 0.0, 0.0, 1.0])
