@@ -114,13 +114,14 @@ class HermiteFE(Composition):
         contact = self.contact or NodeContact()
         chosen = self.integrator or whole_beam.scheme(impact, contact, shortest, end_time)
         integrator = chosen.with_defaults(impact, end_time)  # before it is refined: what is open cannot be
-        step = whole_beam.step(impact, shortest)
-        if wall is not None:
+        if integrator.time_step is None and wall is not None:
             step = resolution.ELASTIC_STEP * min(wall.time, impact.slow_time_scale)
-        if integrator.time_step is None and wall is None:  # of elements that are refined already
+            integrator = integrator.with_steps(step, 0.0).refined(self.refine)
+        elif integrator.time_step is None:
+            step = whole_beam.step(impact, shortest)
             integrator = integrator.refined(self.refine**2).with_steps(step, 0.0)
         else:
-            integrator = integrator.with_steps(step, 0.0).refined(self.refine)
+            integrator = integrator.with_steps(integrator.time_step, 0.0).refined(self.refine)
         return dataclasses.replace(
             self,
             mesh=mesh,

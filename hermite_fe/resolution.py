@@ -138,8 +138,9 @@ def choose(impact: Impact, end_time: float, parts: Composition | None = None) ->
             f"contact.{name} has no effect with this integrator, whose rows may always open (got {value!r})"
         )
     end = "free" if parts.domain is None else "following"
-    viscosity = GridViscosity.viscosity if integrator.damped else 0.0
-    far_field = parts.far_field or GridViscosity(end=end, viscosity=viscosity)
+    far_field = parts.far_field or (
+        GridViscosity(end=end) if integrator.damped else GridViscosity(end=end, viscosity=0.0)
+    )
     if parts.domain is not None and far_field.end != "following":
         raise InputError(
             f'domain cuts the beam where it goes on: far_field.end must be "following" (got {far_field.end!r})'
