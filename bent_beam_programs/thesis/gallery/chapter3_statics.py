@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from bent_beam_programs.thesis.gallery.drawing import guide, plain_line
-from bent_beam_programs.thesis.sheet import Sheet, item, items
+from bent_beam_programs.thesis.sheet import Sheet, item
 from comparison.figures import style
 from hermite_fe import INTEGRATORS
 from hermite_fe.beam import HermiteBeam, shape_functions
@@ -44,18 +44,27 @@ def static(sheet: Sheet, force: float, node: int, supports: dict[int, float], ex
     }
 
 
-NEAR = np.minimum(NODES, LENGTH - NODES)  # to the nearer end
-items(__name__, static, (
-    ("fig-3.3", "Deflection of a beam on two supports",
-     f"Beam on two supports, L = 5 m, P = 5·10⁵ N in the middle, 52 elements, against (3.1.12). {PRINTED}. The "
-     'thesis\'s caption says "encastre"; its text blocks the deflection alone, as here.',
-     5e5, ELEMENTS // 2, {0: 0.0, 2 * ELEMENTS: 0.0},
-     5e5 * NEAR * (3.0 * LENGTH**2 - 4.0 * NEAR**2) / (48.0 * AXIS_STIFFNESS)),
-    ("fig-3.5", "Deflection of a cantilever",
-     f"Cantilever clamped at x = L, P = 8·10⁵ N at x = 0, L = 5 m, 52 elements, against (3.1.15). {PRINTED}.",
-     8e5, 0, {2 * ELEMENTS: 0.0, 2 * ELEMENTS + 1: 0.0},
-     8e5 * (NODES**3 / 6.0 - LENGTH**2 * NODES / 2.0 + LENGTH**3 / 3.0) / AXIS_STIFFNESS),
-))  # fmt: skip
+@item("fig-3.3", printed=PRINTED)
+def supported(sheet: Sheet) -> None:
+    """Deflection of a beam on two supports
+
+    Beam on two supports, L = 5 m, P = 5·10⁵ N in the middle, 52 elements, against (3.1.12). {printed}. The thesis's
+    caption says "encastre"; its text blocks the deflection alone, as here.
+    """
+    s, force = np.minimum(NODES, LENGTH - NODES), 5e5
+    exact = force * s * (3.0 * LENGTH**2 - 4.0 * s**2) / (48.0 * AXIS_STIFFNESS)
+    static(sheet, force, ELEMENTS // 2, {0: 0.0, 2 * ELEMENTS: 0.0}, exact)
+
+
+@item("fig-3.5", printed=PRINTED)
+def cantilever(sheet: Sheet) -> None:
+    """Deflection of a cantilever
+
+    Cantilever clamped at x = L, P = 8·10⁵ N at x = 0, L = 5 m, 52 elements, against (3.1.15). {printed}.
+    """
+    force = 8e5
+    exact = force * (NODES**3 / 6.0 - LENGTH**2 * NODES / 2.0 + LENGTH**3 / 3.0) / AXIS_STIFFNESS
+    static(sheet, force, 0, {2 * ELEMENTS: 0.0, 2 * ELEMENTS + 1: 0.0}, exact)
 
 
 def ball(step: float, end: float) -> tuple[np.ndarray, np.ndarray]:
