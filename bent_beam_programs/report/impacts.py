@@ -161,11 +161,14 @@ def theory_of(shown: Shown) -> dict[str, Any]:
     near = 4.0 * max(float(exact.lambda0), 0.5)  # in front of the contact the shape bends most
     z = np.concatenate([np.linspace(0.0, near, 91), np.geomspace(near, max(x[-1] / root[0], 2.0 * near), 31)[1:]])
     profiles = -fields.beam(z[None, :] * np.sqrt(times)[:, None], times[:, None]).deflection / times[:, None]
-    shapes = np.array([np.interp(tau, times, column) for column in profiles.T]).T
+    gap = []
+    for t, r in zip(tau, root):
+        profile = np.array([np.interp(t, times, column) for column in profiles.T])
+        gap.append(_short(CubicSpline(z, profile)(x / r)))
     return {
         "time": _short(tau),
         "x": _short(x),
-        "gap": [_short(CubicSpline(z, shape)(x / r)) for shape, r in zip(shapes, root)],
+        "gap": gap,
         "front": _short(root * (exact.lambda0 + shown.epsilon * exact.lambda1 * tau)),
         "reaction": _short(np.sqrt(2.0 / np.pi) * (exact.r0 + shown.epsilon * exact.r1 * tau) / root),
         "pressure": shown.pressure,

@@ -7,7 +7,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from functools import partial
 from statistics import median
 from typing import Any
 
@@ -133,10 +132,14 @@ def _at_own_resolution(rows: Iterable[MatchRow], *, first: bool) -> list[TableRo
     return [table_row(r) for r in sorted(chosen, key=lambda r: (r.kappa_over_nu, r.first, order[r.label]))]
 
 
-leading_rows = partial(_at_own_resolution, first=False)
-"""Rows of leading order at the methods' own resolution, by κ/ν and method."""
-first_order_rows = partial(_at_own_resolution, first=True)
-"""Rows of first order at the methods' own resolution, by κ/ν, (α, ψ, χ, N) and method."""
+def leading_rows(rows: Iterable[MatchRow]) -> list[TableRow]:
+    """Rows of leading order at the methods' own resolution, by κ/ν and method."""
+    return _at_own_resolution(rows, first=False)
+
+
+def first_order_rows(rows: Iterable[MatchRow]) -> list[TableRow]:
+    """Rows of first order at the methods' own resolution, by κ/ν, (α, ψ, χ, N) and method."""
+    return _at_own_resolution(rows, first=True)
 
 
 def percent(value: float) -> str:
