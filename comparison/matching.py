@@ -96,17 +96,18 @@ def _run(
 
 @dataclass(frozen=True)
 class _Estimates:
-    """What the ``runs`` at one resolution gave, the first of them alone without loads; ``base`` without loads and
-    ``loaded`` at each ε on the mesh for first order; ``pressure`` on the zone over ε."""
+    """What the runs at one resolution gave: ``run`` alone without loads, ``runs`` all of them; ``base`` without loads
+    and ``loaded`` at each ε on the mesh for first order; ``pressure`` on the zone over ε."""
 
+    run: Run
     runs: list[Run]
     base: Moments | None = None
     loaded: Sequence[tuple[float, Moments]] = ()
     pressure: float = 0.0
 
     def leading(self, others: Sequence[_Estimates] = ()) -> LeadingEstimate:
-        own, *companions = (_moments(one.runs[0]) for one in (self, *others))
-        return leading_order(own, companions=companions, unresolved=self.runs[0].reading["unresolved"])
+        companions, few = [_moments(other.run) for other in others], self.run.reading["unresolved"]
+        return leading_order(_moments(self.run), companions=companions, unresolved=few)
 
     def first(self, others: Sequence[_Estimates] = ()) -> FirstOrderEstimate | None:
         """``None`` where first order was not asked for."""
@@ -129,7 +130,7 @@ def _estimates(
         raise Refused(f"refine: {asked.path} does not know how to be refined (got {factor:g})")
     alone = run(method, bare)
     if first is None:
-        return _Estimates([alone])
+        return _Estimates(alone, [alone])
     if epsilon is None:
         perturbation = getattr(asked, "perturbation", PERTURBATION)
         epsilon = first_order_epsilon(leading_order(_moments(alone)), first, perturbation, question.duration)
@@ -141,7 +142,7 @@ def _estimates(
     pressed = largest.zone_pressure > 0.0
     base, *found = (run(fixed, question.loaded(share * epsilon), pressed) for share in (0.0, *SHARES))
     moved = [(share * epsilon, _moments(one)) for share, one in zip(SHARES, found)]
-    return _Estimates([alone, base, *found], _moments(base), moved, largest.zone_pressure / epsilon)
+    return _Estimates(alone, [alone, base, *found], _moments(base), moved, largest.zone_pressure / epsilon)
 
 
 def answer(question: MatchQuestion, store: RunStore, limit: float | None = None) -> MatchRow:
@@ -172,7 +173,7 @@ def answer(question: MatchQuestion, store: RunStore, limit: float | None = None)
     return MatchRow(
         **about(question),
         **with_theory(question, leading, estimate),
-        peak_force=_peak_force(question, [one.runs[0] for one in (fine, *others)]),
+        peak_force=_peak_force(question, fine.run, [o.run for o in others]),
         lift=leading.lift,
         **_largest(readings, "pull", "momentum_residual", "gap_of_push"),
         hold=_largest(holds, "until", "pull") if holds else None,
@@ -183,9 +184,9 @@ def answer(question: MatchQuestion, store: RunStore, limit: float | None = None)
     )
 
 
-def _peak_force(question: MatchQuestion, runs: Sequence[Run]) -> Number:
-    """The largest force on a wall that gives way, by a run and its companions, beside the theory of that wall."""
-    force, *coarser = (run.reading["peak_force"] for run in runs)
+def _peak_force(question: MatchQuestion, run: Run, others: Sequence[Run]) -> Number:
+    """The largest force on a wall that gives way, beside the theory of that wall."""
+    force, *coarser = (one.reading["peak_force"] for one in (run, *others))
     if force is None:
         return MISSING
     from theory.elastic_wall import FLATTEST, MOST_DAMPED, SHARPEST, peak_force
