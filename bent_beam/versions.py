@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import contextlib
 import importlib.metadata
 import platform
 from datetime import UTC, datetime
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -14,11 +14,18 @@ __all__ = ["processor", "stamp", "today", "versions"]
 
 def versions() -> dict[str, str]:
     """Versions of what a result depends on, by distribution name."""
-    found = {}
-    for name in ("bent-beam-impact", "numpy", "scipy", "numba", "exudyn", "xarray"):
-        with contextlib.suppress(importlib.metadata.PackageNotFoundError):
-            found[name] = importlib.metadata.version(name)
-    return found
+    names = ("bent-beam-impact", "numpy", "scipy", "numba", "exudyn", "xarray")
+    found = {name: _version(name) for name in names}
+    return {name: version for name, version in found.items() if version is not None}
+
+
+@cache
+def _version(name: str) -> str | None:
+    """Of a distribution; what is installed does not change while Python runs."""
+    try:
+        return importlib.metadata.version(name)
+    except importlib.metadata.PackageNotFoundError:
+        return None
 
 
 def today() -> str:
