@@ -109,15 +109,17 @@ def assemble(layout: Layout, chosen: Chosen, *, si: bool = False) -> tuple[Beam,
     hold = beam.hold_by_inertia if explicit else beam.fix
     across, turning = beam.vertical_coordinate, beam.rotation_coordinate
     held = {"free": (), "hinged": (across,), "clamped": (across, turning)}
-    ends = [(0, -1.0, scaling.impact.left_end), (shape.s.size - 1, 1.0, scaling.impact.right_end)]
-    if scaling.load:
-        beam.load_uniformly(scaling.load * scaling.amplitude)
-    if not chosen.full_beam:
+    ends = [(shape.s.size - 1, 1.0, scaling.impact.right_end)]
+    if chosen.full_beam:
+        ends.insert(0, (0, -1.0, scaling.impact.left_end))
+    else:
         hold(0, beam.horizontal_coordinate, turning)
-        del ends[0]
-    for node, sign, end in ends:
+    for node, _, end in ends:
         if held[end]:
             hold(node, *held[end])
+    if scaling.load:
+        beam.load_uniformly(scaling.load * scaling.amplitude)
+    for node, sign, _ in reversed(ends):
         _load_end(beam, node, sign, follows=layout.ends_follow)
     run = chosen.contact.attach(beam, _wall(beam, chosen))
     x = np.linspace(min(0.0, float(shape.x[0])), float(shape.x[-1]), 200)
