@@ -124,7 +124,7 @@ class PredictedCase:
                 row["reaction"] = None
         return document | {
             "force_until": force,
-            "times": rows[: len(self.simulated or rows)],
+            "times": rows if self.simulated is None else rows[: len(self.simulated)],
             "model": self.case.impact.model,
             "velocity": self.case.impact.velocity,
             "warnings": self.warnings,

@@ -113,8 +113,8 @@ def largest_of(section: Any) -> tuple[str, str, str]:
 
 
 def milliseconds(time: float) -> str:
-    """A time, s, for a sentence: three digits, and no power of ten for what is large."""
-    return f"{1e3 * time:.3g} ms" if abs(time) < 1.0 else f"{1e3 * time:.0f} ms"
+    """A time, s, for a sentence: three digits; of more than a second whole milliseconds, and no power of ten."""
+    return f"{1e3 * time:.3g} ms" if abs(time) < 0.9995 else f"{1e3 * time:.0f} ms"
 
 
 def text_table(head: Sequence[str], rows: Sequence[Sequence[str]], left: Sequence[int] = (0,)) -> str:

@@ -164,7 +164,7 @@ class HermiteBeam:
         stiffness, load = self.stiffness(), np.array(load, float)
         free = np.ones(self.dofs, bool)
         free[list(supports)] = False
-        # rows and columns scaled to a unit diagonal: the raw matrix mixes w with θ and loses digits
+        # rows and columns scaled to a unit diagonal: the raw matrix mixes w with θ and loses digits; supports by 0
         bands, scale = stiffness.copy(), np.where(free, 1.0 / np.sqrt(stiffness[0]), 0.0)
         for m in range(4):
             bands[m, : self.dofs - m] *= scale[: self.dofs - m] * scale[m:]

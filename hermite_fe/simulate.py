@@ -115,7 +115,8 @@ def simulate(
             run.failure,
             time=run.failure_time,
             step=run.steps,
-            advice="a smaller integrator.time_step or growth, or more damping at grid scale (far_field.viscosity)"
+            advice="a smaller integrator.time_step or growth"
+            + (", more damping at grid scale (far_field.viscosity)" if choice.integrator.damped else "")
             + ("" if impact.wall_stiffness else ', or integrator.kind = "moreau_jean"'),
             history=history,
         )

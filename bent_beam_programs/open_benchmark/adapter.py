@@ -41,8 +41,8 @@ INSTALL_SECONDS = 900.0
 
 @dataclass(frozen=True)
 class Adapter:
-    """One code; the head of ``adapters.toml`` says what the fields are. Without ``install`` and ``debian`` it runs with
-    this Python, without ``kinds`` it is asked all problems."""
+    """One code; the head of ``adapters.toml`` says what the fields are, and what a table of it leaves out. Of an object
+    without ``install`` and ``debian`` it runs with this Python, without ``kinds`` it is asked all problems."""
 
     name: str
     file: Path

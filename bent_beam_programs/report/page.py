@@ -81,7 +81,8 @@ def write_report(
     asked = len(questions)
     total = asked + len(SHOWN) * len(methods) + 1
     warm_up(methods)
-    rows = match(questions, store=store, jobs=jobs, scheduler=scheduler, progress=lambda done, _: progress(done, total))
+    where: dict[str, Any] = {"jobs": jobs} if scheduler is None else {"scheduler": scheduler}
+    rows = match(questions, store=store, **where, progress=lambda done, _: progress(done, total))
     impacts, lost = show_all(
         SHOWN, methods, store=store, jobs=jobs, progress=lambda done, _: progress(asked + done, total)
     )

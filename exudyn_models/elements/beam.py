@@ -118,7 +118,8 @@ class Beam(ABC):
             self.mbs.AddObject(items.CoordinateConstraint(markerNumbers=markers, offset=place))
 
     def hold_by_inertia(self, node: int, *coordinates: int) -> None:
-        """Hold coordinates of a node by an inertia too large to move: why explicit solvers need it, docs/exudyn.md."""
+        """Hold coordinates of a node, at the middle or at an end, by an inertia too large to move: why explicit solvers
+        need it, docs/exudyn.md."""
         mass = np.zeros(self.rotation_coordinate + 1)
         mass[list(coordinates)] = INERTIA * self.units.mass_per_length * self.units.length
         self.mbs.AddObject(items.ObjectGenericODE2(nodeNumbers=[self.nodes[node]], massMatrix=np.diag(mass)))

@@ -70,7 +70,7 @@ class MasslessBoundary(Integrator):
         matrices.M[:] = 0.0  # of this run from here on
         matrices.M[0] = np.where(inner, mass, 0.0)
         solver.fixed[solver.unknown[inner]] = True  # while the others find their equilibrium
-        prepare(problem, 0.0, 1.0, 0.0, 0.0)  # K, and masses where nothing is solved for
+        recompiling(lambda: prepare(problem, 0.0, 1.0, 0.0, 0.0))  # K, and masses where nothing is solved for
         memory = MasslessMemory(
             constraints_of(problem.rows), inner, fastest(matrices.K, mass, inner), np.zeros_like(state.impulse),
             *np.zeros((5, state.q.size)),

@@ -185,6 +185,16 @@ def test_shipped_cases_are_read_and_what_the_page_lacks_is_refused_by_name() -> 
 
 BAR = '[section]\nkind = "round_bar"\ndiameter = 0.01\nyoungs_modulus = 7e10\ndensity = 2700.0\n'
 BAR += "[beam]\nlength = 1.0\nsagitta = 0.01\n[impact]\nvelocity = 1.0\n"
+GENERAL = """[section]
+kind = "general"
+area_of_section = 1e-4
+second_moment_of_area = 1e-9
+section_height = 0.01
+youngs_modulus = 7e10
+density = 2700.0
+[beam]
+model = "timoshenko"
+"""
 
 
 @needs_node
@@ -193,6 +203,7 @@ BAR += "[beam]\nlength = 1.0\nsagitta = 0.01\n[impact]\nvelocity = 1.0\n"
     [
         ("density = 2700.0", "", "section.density is missing"),
         ("diameter = 0.01", "", "section.diameter is missing"),
+        (BAR[: BAR.index("length")], GENERAL, "needs a section that knows its shear"),
         ("diameter = 0.01", "diameter = 0.01\nwidth = 0.1", "section.width is none of a round_bar"),
         ("sagitta = 0.01", "", "give one of beam.sagitta, beam.curvature, beam.dogleg"),
         ("sagitta = 0.01", "sagitta = 0.01\ncurvature = 0.1", "give one of beam.sagitta"),

@@ -135,6 +135,8 @@ const Case = (() => {
     const open = ways.find((way) => way.filter(given).length !== 1);
     const twice = NOT_BOTH.find((way) => way.every(given));
     const alone = ONLY_WITH.find(([name, other]) => given(name) && !given(other));
+    if (kind === "general" && values["beam.model"] === "timoshenko")
+      return "beam.model = timoshenko needs a section that knows its shear";
     if (missing) return `${missing} is missing`;
     if (foreign) return `${foreign} is none of a ${kind}`;
     if (open) return `give one of ${open.join(", ")}`;

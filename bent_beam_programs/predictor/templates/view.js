@@ -98,7 +98,7 @@
     const at = `at ${quantity("time", run.time * scales.time, 3)}, `
       + `${run.place ? quantity("place", run.place * scales.length, 3) + " from" : "in"} the middle; `
       + `largest of 0 to ${quantity("time", run.until * scales.time, 3)}`;
-    const over = numbers.map((one, k) => `${stress(one)} at ${percent(ratios[k])}`).join(", ");
+    const over = numbers.map((one, k) => `${stress(one)} at ${percent(ratios[k])}`).filter(Boolean).join(", ");
     const beyond = b.yieldStress && Beam.stress(b, found.moment.value * scales.moment) > b.yieldStress;
     const words = {
       stress: stress(found),
