@@ -41,6 +41,7 @@ def test_a_square_mesh_gives_a_front_the_same_time_in_each_element_and_a_scale_f
     nodes = ScaleFreeMesh(element_length=1e-3, growth=1.02).nodes(10.0)
     sizes = np.diff(nodes)
     assert np.allclose(sizes[1:] / sizes[:-1], 1.02)
+    assert GradedMesh(0.01).growth <= 1.02 >= ScaleFreeMesh(0.01).growth  # by more an element waves are reflected
     sizes = np.diff(GradedMesh(element_length=1e-4, growth=1.5).nodes(25.0))
     assert sizes.max() / sizes.min() == pytest.approx(1e3, rel=0.05)  # what the thesis caps them at
 

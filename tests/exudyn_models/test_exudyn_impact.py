@@ -1,5 +1,6 @@
 """Impacts by Exudyn against the exact leading order, on small meshes; every part can be swapped."""
 
+import itertools
 import math
 
 import numpy as np
@@ -19,6 +20,7 @@ from exudyn_models.contacts import Penalty, Rigid, SegmentFriction
 from exudyn_models.elements import ANCFCable, GeometricallyExact
 from exudyn_models.geometry import LinearLimit, TrueGeometry
 from exudyn_models.integrators import DOPRI5, RK44, GeneralizedAlpha, Newmark, VelocityVerlet
+from exudyn_models.segments import growing_segments
 from theory import contact_parameters
 
 HALF = Impact.dimensionless(0.5)
@@ -35,6 +37,17 @@ def coarse(impact=HALF, growth=1.02, elements=30):
 def off(history):
     found, exact = leading_order(moments(history)), contact_parameters(history.impact.kappa_over_nu)
     return max(abs(getattr(found, name).value / float(getattr(exact, name)) - 1.0) for name in ("lambda0", "r0"))
+
+
+@pytest.mark.parametrize(("first", "relative"), [(1e-3, 0.05), (0.013, 0.05), (1e-4, 0.01), (0.2, 0.1)])
+def test_steps_grow_with_time_and_cover_the_run_none_shorter_but_for_a_round_number_at_its_end(first, relative):
+    found = growing_segments(first, relative)
+    assert found[0].start == 0.0 and found[-1].end == 1.0
+    assert all(one.end == other.start for one, other in itertools.pairwise(found))
+    for before, after in itertools.pairwise(found):
+        room = 1.0 + 1.0 / after.steps
+        assert before.length <= after.length * room and after.length <= relative * after.start * (1.0 + 1e-9)
+    assert found[0].length <= first * (1.0 + 1e-9)
 
 
 @verify
