@@ -93,6 +93,9 @@ def test_a_beam_that_leaves_slowly_may_touch_again_where_twice_the_bar_of_its_ve
         found = whole_numbers(dataclasses.replace(runs(one, other), question=Question(problem(2.0, 1e-3), COARSE)))
         number = found["last_contact"]
         assert isinstance(number, Number) and number.parts["returns"] == pytest.approx(later, abs=0.03)
+    held = Question(problem(2.0, 1e-3).replace(left_end="hinged"), COARSE)  # what its other points do is not told
+    found = whole_numbers(dataclasses.replace(runs(one, other), question=held))
+    assert isinstance(found["last_contact"], Number) and found["last_contact"].parts["returns"] == 0.0
 
 
 def test_bars_over_a_tenth_of_a_number_are_wide_and_a_small_restitution_counts_as_more() -> None:
