@@ -212,7 +212,7 @@ class ImpactHistory:
     @property
     def force(self) -> Array:
         """Mean force of the wall since the saved instant before, N, shape (times,)."""
-        start = 0.0 if self.time[0] else -np.inf
+        start = 0.0 if self.time[0] else -np.inf  # nothing is before an instant 0: no force
         return np.diff(self.array("total_impulse"), prepend=0.0) / np.diff(self.time, prepend=start)
 
     @property

@@ -120,7 +120,7 @@ class PredictedCase:
         holds = document["valid_until"]  # a beam whose damping is not stated has some, enough to absorb short waves
         force = document["force_until"] if self.case.damping_stated else holds
         for row in rows:
-            if force < min(row["time"], holds):
+            if force < min(row["time"], holds):  # beyond ``holds`` the whole row is told to be invalid
                 row["reaction"] = None
         return document | {
             "force_until": force,

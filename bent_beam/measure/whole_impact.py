@@ -133,7 +133,7 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
     gained = np.interp(time + WINDOW * unit, time, total) - total
     k = int(np.argmax(gained))
     rise = _rise_between(gained, k) if impact.wall_stiffness is not None else 0.0
-    begin = k + max(int(np.argmax(total[k:] > total[k])) - 1, 0)
+    begin = k + max(int(np.argmax(total[k:] > total[k])) - 1, 0)  # the last instant before the wall pushes
     before = _velocity(history, hit[0][0], float(time[hit[0][0]]))
     arrives = abs(before) > 1e-6 * speed  # a beam that only turns has no restitution
 
