@@ -195,6 +195,17 @@ def test_what_a_moment_may_have_been_at_first_is_a_share_of_that_of_a_stopped_po
         assert whole_impact(found).moment_left_out == pytest.approx(0.7)
 
 
+def test_a_moment_counts_once_a_wave_has_passed_ten_of_the_shortest_elements() -> None:
+    """Elements of ℓ/500: 4·10⁻⁴ T*. What the first touch of the mesh made before is left out."""
+    time, x = np.linspace(0.0, 0.4, 4001), np.array([0.0, 0.002, 0.3, 0.6, 1.0])
+    impulse = np.minimum(time, 0.2)[:, None] * (x == 0.0)
+    for peak, counts in ((2.5e-4, False), (7.5e-4, True)):
+        moment = np.where(np.abs(time - peak) < 1e-4, 0.7, 0.4)
+        found = whole_impact(recorded(time, impulse, x=x, largest_moment=moment, largest_moment_place=0.0 * time,
+                                      largest_midspan_moment=moment))  # fmt: skip
+        assert found.peak_moment == pytest.approx(0.7 if counts else 0.4)
+
+
 def test_the_largest_moment_off_the_middle_is_on_its_side() -> None:
     found = []
     for touch in (0.3, -0.3):
