@@ -148,6 +148,9 @@ def test_theory_and_simulation_agree_over_the_longest_time_and_not_at_the_most_i
     runs: Any = SimpleNamespace(part=lambda _: None)
     found = predicting._agreement([0.1, 0.2, 0.3, 0.4, 0.6, 1.0], theory, runs, 0)
     assert found == {"from": 0.6, "until": 1.0}
+    told = iter([1.0, 1.0, 1.0, 2.0, 1.0, 1.0])
+    found = predicting._agreement([0.1, 0.2, 0.6, 0.8, 0.9, 1.0], theory, runs, 0)
+    assert found == {"from": 0.1, "until": 0.6}, "the later is not the longer"
 
 
 def test_a_warning_of_one_of_several_runs_says_of_which() -> None:

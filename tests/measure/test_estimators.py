@@ -138,6 +138,20 @@ def test_first_order_is_recovered_with_and_without_uniform_reaction(first):
     assert abs(found.lambda1.value - exact.lambda1) <= found.lambda1.bar + 0.02 * max(abs(exact.lambda1), 1.0)
 
 
+def test_noise_of_a_run_counts_in_proportion_to_its_epsilon():
+    """The same error of either run is the same share of what they measure together."""
+    base = moments(synthetic(0.5))
+    spreads = []
+    for disturbed in (0.05, 0.1):
+        runs = [(e, moments(synthetic(0.5, (4.0, 0.0, 0.0), e), uniform=True)) for e in (0.05, 0.1)]
+        runs = [
+            (e, dataclasses.replace(run, impulse=run.impulse + 0.02 * run.tau**1.5 * (e == disturbed)))
+            for e, run in runs
+        ]
+        spreads.append(first_order(runs, base, leading_order(base)).r1.parts["spread"])
+    assert 0.5 < spreads[0] / spreads[1] < 2.0 and min(spreads) > 0.01
+
+
 def test_a_uniform_reaction_is_taken_out_where_something_presses_the_zone():
     """Whatever the cause: a₀ or tension on a bow. A load that lifts, or one that bends alone, leaves none."""
     pressed, lifted = (synthetic(0.5, (alpha, 0.0, 0.0), 0.1) for alpha in (1.0, -1.0))
