@@ -203,18 +203,18 @@ def test_what_clashes_or_is_mistaken_is_named_with_its_value(tables, message):
     [("free", 1.0), ("hinged", 1.0), (["clamped", "free"], 0.25), (["free", "hinged"], 0.0), ("clamped", 4.0),
      (["hinged", "clamped"], (4.493409458 / math.pi) ** 2)],
 )  # fmt: skip
-def test_a_duration_is_in_units_of_the_beams_own_time():
-    found = case(run={"duration": 0.05})
-    assert found.impact.time_scale != pytest.approx(1.0, rel=0.1)
-    assert found.end_time == pytest.approx(0.05 * found.impact.time_scale)
-
-
 def test_a_beam_buckles_under_the_critical_load_of_its_ends(ends, share):
     bow = {"curvature": 0.002, "ends": ends}
     limit = share * math.pi**2 * case(bow).impact.bending_stiffness / 30.0**2
     case(bow | {"axial_force": -0.999 * limit})
     with pytest.raises(InputError, match="axial_force must not press with more than"):
         case(bow | {"axial_force": -1.001 * limit - 1.0})
+
+
+def test_a_duration_is_in_units_of_the_beams_own_time():
+    found = case(run={"duration": 0.05})
+    assert found.impact.time_scale != pytest.approx(1.0, rel=0.1)
+    assert found.end_time == pytest.approx(0.05 * found.impact.time_scale)
 
 
 def test_every_case_file_loads_the_thesis_sweep_is_complete_and_the_other_beams_spread():
