@@ -20,6 +20,17 @@ def small(**fields):
     return history_of([0.0, 1.0, 2.0], [0.0, 0.5, 1.0, 2.0], **known | fields).with_warnings(["front under-resolved"])
 
 
+def test_a_history_until_a_time_ends_there_and_recorded_moments_come_instant_by_instant_or_together():
+    time, x = np.linspace(0.0, 1.0, 5), np.linspace(0.0, 1.0, 4)
+    run = history_of(time, x, bending_moment=np.outer(time, [3.0, 2.0, 1.0, 0.0]))
+    cut = run.until(0.5)
+    assert cut.time.tolist() == [0.0, 0.25, 0.5] and cut.array("gap").shape == (3, 4)
+    together, places = run.bending_moments(slice(1, 3))
+    for row, k in zip(together, (1, 2)):
+        moments, where = run.bending_moments(k)
+        assert np.array_equal(row, moments) and np.array_equal(where, places)
+
+
 def test_a_history_is_read_back_equal_and_its_budget_adds_up(tmp_path):
     history = small()
     again = ImpactHistory.load(history.save(tmp_path / "run.nc"))

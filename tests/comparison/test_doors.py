@@ -111,6 +111,12 @@ def test_gaps_are_compared_wherever_both_runs_have_the_beam(place: float) -> Non
     assert compare_histories(one, other)["largest_difference"]["gap"] == pytest.approx(0.3)
 
 
+def test_gaps_at_the_end_of_the_common_time_are_those_between_saved_instants() -> None:
+    x, impact = np.linspace(0.0, 1.0, 6), Impact.whole_beam(0.5)
+    runs = [history_of(t, x, impact=impact, gap=np.outer(t, 1.0 + x)) for t in ([0.0, 0.7, 1.0], [0.0, 0.4, 1.6])]
+    assert compare_histories(*runs)["largest_difference"]["gap"] == pytest.approx(0.0, abs=1e-12)
+
+
 def test_of_two_runs_of_the_whole_beam_both_halves_are_compared_and_drawn() -> None:
     time, x = np.array([0.0, 1.0, 2.0]), np.linspace(-1.0, 1.0, 5)  # gaps are told over V₀t
     impulse = np.outer(time, [1.0, 0.0, 0.0, 0.0, 1.0])

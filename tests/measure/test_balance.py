@@ -138,6 +138,14 @@ def test_missing_energy_is_a_share_of_what_there_was_and_of_the_work_of_loads() 
     assert balance_of(run).energy == pytest.approx(0.1)
 
 
+@pytest.mark.parametrize(("symmetry", "sides"), [("half", 2.0), ("full", 1.0)])
+def test_what_contact_points_got_is_what_the_wall_gave(symmetry: str, sides: float) -> None:
+    time, x = np.linspace(0.0, 1.0, 3), np.linspace(0.0 if symmetry == "half" else -1.0, 1.0, 3)
+    impulse = np.outer(time, [1.0, 2.0, 0.0])
+    run = history_of(time, x, impact=WHOLE, symmetry=symmetry, impulse=impulse, total_impulse=sides * 3.0 * time)
+    assert balance_of(run).points == pytest.approx(0.0)
+
+
 def test_a_beam_in_the_opposite_wall_is_in_a_wall() -> None:
     """Flat, 0.3 m behind the apex of a beam before a curved wall."""
     x, time = np.linspace(0.0, 1.0, 5), np.linspace(0.0, 1.0, 11)

@@ -112,6 +112,16 @@ def test_noise_widens_the_error_bar_and_stays_inside_it():
     assert sum(abs(r0.value - exact.r0) <= r0.bar for r0 in found) >= 9
 
 
+def test_a_companion_that_says_the_same_leaves_what_one_run_tells():
+    run, other = (moments(synthetic(0.3, noise=noise, seed=3)) for noise in (0.0, 0.02))
+    same, apart = (leading_order(run, companions=[one]) for one in (run, other))
+    for name in ("lambda0", "r0"):
+        known = getattr(same, name)
+        drift = getattr(leading_order(run), name).parts["drift"]
+        assert known.bar <= drift + sum(known.parts[part] for part in ("least", "element", "lift"))
+        assert known.bar < getattr(apart, name).bar
+
+
 def test_a_run_that_drifts_within_its_window_has_a_bar_for_it():
     """A hump of the impulse in the middle of the last decade, which a fit over all of it smooths."""
     smooth = moments(synthetic(0.3))

@@ -7,7 +7,7 @@ from histories import history_of
 from bent_beam import Impact
 from bent_beam.measure.force_map import force_map
 from bent_beam.measure.instant import instant
-from bent_beam.measure.moments import half_contact_length, mean_reaction
+from bent_beam.measure.moments import first_front, half_contact_length, mean_reaction
 from bent_beam.measure.reduction import pull_of
 from bent_beam.meshes import UniformMesh
 from hermite_fe import HermiteFE
@@ -43,6 +43,22 @@ def test_a_middle_that_lifts_off_does_not_shorten_the_contact_and_a_late_push_al
     assert mean_reaction(history, history.time[100]) is None  # no tenth after the end
     assert mean_reaction(history, 1.0 / 1.1) == pytest.approx(2.0 + 2.0 * 0.12 / (0.2 / 1.1))  # the tenth is the last
     assert mean_reaction(history, history.time[75]) == pytest.approx(2.0, rel=1e-9)
+
+
+def test_a_front_that_does_not_go_as_the_root_of_time_is_between_where_it_was_and_where_it_will_be() -> None:
+    """It comes back from 0.6 as 0.6 − t/2; and a zone of 0.3 ends at a quarter: straight in √t from there to nothing."""
+    x, time = np.linspace(0.0, 1.0, 1001), np.linspace(0.0, 1.0, 2001)
+    places = np.searchsorted(x, 0.6 - 0.5 * time)
+    gained = np.zeros((time.size, x.size))
+    gained[np.arange(1, time.size), places[1:]] = 1.0
+    back = history_of(time, x, impulse=gained.cumsum(axis=0))
+    front, bent = first_front(back, 0.5)
+    assert front == pytest.approx(0.35, abs=2e-3) and bent == pytest.approx(0.6 - 0.5 * 0.475 - 0.35, abs=0.015)
+    ends = np.zeros((time.size, x.size))
+    ends[:, 300], ends[:, 0] = np.minimum(time, 0.25), np.maximum(time - 0.25, 0.0)
+    before, after = (1.0 + np.sqrt(0.9)) / 2.0, (1.0 + np.sqrt(1.1)) / 2.0
+    share = (after - 1.0) / (after - before)
+    assert first_front(history_of(time, x, impulse=ends), 0.25)[0] == pytest.approx(0.3 * share, rel=0.02)
 
 
 @pytest.mark.parametrize("unit", [1.0, 0.01])
