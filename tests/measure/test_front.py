@@ -46,7 +46,7 @@ def test_a_middle_that_lifts_off_does_not_shorten_the_contact_and_a_late_push_al
 
 
 def test_a_front_that_does_not_go_as_the_root_of_time_is_between_where_it_was_and_where_it_will_be() -> None:
-    """It comes back from 0.6 as 0.6 − t/2; and a zone of 0.3 ends at a quarter: straight in √t from there to nothing."""
+    """It comes back from 0.6 as 0.6 − t/2; a zone of 0.3 ends at a quarter: straight in √t from there to nothing."""
     x, time = np.linspace(0.0, 1.0, 1001), np.linspace(0.0, 1.0, 2001)
     places = np.searchsorted(x, 0.6 - 0.5 * time)
     gained = np.zeros((time.size, x.size))
