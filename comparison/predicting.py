@@ -200,7 +200,7 @@ def predict_case(
     said_by = {time: {line for line in runs.warnings if REFLECTED not in line} for time, runs in found.items()}
     by_all = set.intersection(*said_by.values()) if said_by else set()
     warnings += by_all
-    warnings += [f"to {milliseconds(time)}: {line}" for time, lines in said_by.items() for line in lines - by_all]
+    warnings += [f"run to {milliseconds(time)}: {line}" for time, lines in said_by.items() for line in lines - by_all]
     warnings += [
         f"at {milliseconds(time)}: {line}" for time, numbers in zip(times, simulated) for line in wide_bars(numbers)
     ]

@@ -158,7 +158,7 @@ def test_a_warning_of_one_of_several_runs_says_of_which() -> None:
     soft = Impact.whole_beam(0.1, relative_damping=1e-2).replace(wall_stiffness=1e3)
     found = predict_case(replace(case_of(soft), mesh=UniformMesh(0.2)), [1e-9, 1e-2], whole=False)
     off = [line for line in found.warnings if "do not balance" in line]
-    assert [line.partition(":")[0] for line in off] == ["to 10 ms", "to 1e-06 ms"]
+    assert [line.partition(":")[0] for line in off] == ["run to 10 ms", "run to 1e-06 ms"]
     assert any(line.startswith("the mesh cannot resolve") for line in found.warnings), "both runs say so"
 
 
