@@ -89,10 +89,11 @@ def product(A: Array, x: Array) -> Array:
     return y
 
 
-def stiff_product(A: Array, x: Array) -> Array:
-    """A x by differences, as the integrators compute it: what is to cancel cancels to the last digit."""
+def stiff_product(A: Array, x: Array, sums: Array | None = None) -> Array:
+    """A x by differences, as the integrators compute it: what is to cancel cancels to the last digit. ``sums`` of
+    :func:`row_sums`, where they are known."""
     y = np.empty(x.size)
-    stiff_multiply(A, row_sums(A), x, y)
+    stiff_multiply(A, row_sums(A) if sums is None else sums, x, y)
     return y
 
 

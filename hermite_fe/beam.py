@@ -109,6 +109,8 @@ class HermiteBeam:
 
     def of_slopes(self, element: Array) -> Array:
         """Element matrices, (elements, 4, 4), of the dofs from those of cubics through deflections and slopes."""
+        if self.shear_stiffness is None:
+            return element
         half, across = np.full(self.lengths.size, -0.5), 1.0 / self.lengths
         angle = (self.phi / (1.0 + self.phi))[:, None] * np.stack([-across, half, across, half], axis=1)  # γ
         slopes = np.tile(np.eye(4), (self.lengths.size, 1, 1))

@@ -41,6 +41,8 @@ def branches_at_rest(matrix: Array, fitted: hysteresis.Branches) -> Branches:
 @compiled_within
 def stiffen(branches: Branches, h: float, theta: float, solver: Solver) -> None:
     """Add θh²KΣ ϑg/(1 + ϑh/τ) to a step matrix that is just made, and keep the ϑ and the weights 1/(1 + ϑh/τ)."""
+    if branches.shares.size == 0:
+        return
     share, n = 0.0, branches.matrix.shape[1]
     for j in range(branches.shares.size):
         x = h * branches.rates[j]

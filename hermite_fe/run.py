@@ -92,10 +92,11 @@ class Stepper:
                 "integrator.kind: contact that may pull needs moreau_jean, or signorini_position with theta = 1 "
                 f"(got {kind})"
             )
-        for name in ("restitution", "hold", "hold_until"):
-            if np.any(law.strength) and (value := getattr(law, name)):
-                what = "contact that may pull neither rebounds nor is held"
-                raise InputError(f"{what}: {name} must be 0 (got {value!r})")
+        if np.any(law.strength):
+            for name in ("restitution", "hold", "hold_until"):
+                if value := getattr(law, name):
+                    what = "contact that may pull neither rebounds nor is held"
+                    raise InputError(f"{what}: {name} must be 0 (got {value!r})")
         for name, value in (("q", q), ("v", v)):
             if np.shape(value) != (system.dofs,):
                 raise InputError(f"{name} must have shape ({system.dofs},) (got {np.shape(value)})")
@@ -133,7 +134,7 @@ class Stepper:
         matrices, state = self.problem.matrices, self.state
         found = {
             "kinetic_energy": 0.5 * float(state.v @ product(matrices.M, state.v)),
-            "strain_energy": 0.5 * float(state.q @ stiff_product(matrices.K, state.q)),
+            "strain_energy": 0.5 * float(state.q @ stiff_product(matrices.K, state.q, matrices.K_sums)),
         }
         if state.branches.shares.size:
             found["branch_energy"] = branch_energy(state.branches, state.bending)
@@ -239,7 +240,8 @@ def integrate(
             failure = FAILURES[status]
             break
         samples.append(run.sample())
-        worked = max(worked, abs(samples[-1]["sums"]["work_of_loads"]))
+        sums = samples[-1]["sums"]
+        worked = max(worked, abs(sums["work_of_loads"]))
         if progress is not None:
             progress(float(step) / max(float(kept[-1]), 1.0))
         if until is not None and until(run):

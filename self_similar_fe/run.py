@@ -62,8 +62,8 @@ def simulate_expanding(
     absorber took. Raises :class:`bent_beam.SimulationError` when the active set does not settle, the front leaves the
     fine mesh, or a number is no longer finite.
     """
-    asked: tuple[str, Any] = ("the number of saved times", np.size(save)) if np.ndim(save) else ("save", save)
-    wanted = whole(*asked, 2)
+    count: Any = np.size(save) if np.ndim(save) else save
+    wanted = whole("the number of saved times" if np.ndim(save) else "save", count, 2)
     began = clock.perf_counter()
     try:
         run = Run(impact, mesh, end_time, wanted)

@@ -105,8 +105,9 @@ def solve_step(problem: Problem, state: State, memory: MidpointMemory, t: float,
             new[i] = q[i] + h * (v[i] + 0.5 * dv[i])
         memory.tangent[:] = 0.0
         total[0], loss, touched = push(springs, q, new, h, walls[0], memory.tangent, memory.peaks[0])
-        total[1], more, last = push(second, q, new, h, walls[1], memory.tangent, memory.peaks[1])
-        loss, touched = loss + more, max(touched, last)
+        if second.stiffness > 0.0:
+            total[1], more, last = push(second, q, new, h, walls[1], memory.tangent, memory.peaks[1])
+            loss, touched = loss + more, max(touched, last)
         if converged:
             count_rounds(solver, k)
             state.energy[WALL] += loss
