@@ -84,17 +84,17 @@ def _lowest(ends: tuple[str, str], pull: float, compliance: float, inertia: floa
     slopes = chebyshev.chebvander(points, DEGREE - 1) @ chebyshev.chebder(every)
     of_w = np.array([0.0, 1.0, 0.0, compliance]) / (1.0 + compliance * pull)  # w′ of (w, φ, M, Q)
     static = np.array([of_w, [0.0, 0.0, 1.0, 0.0], pull * of_w - [0.0, 0.0, 0.0, 1.0], np.zeros(4)])
-    moving = np.zeros((4, 4))
+    moving = np.zeros((4, 2))  # ω² stands with w and φ alone
     moving[2, 1], moving[3, 0] = -inertia, -1.0
     left = np.kron(np.eye(4), slopes) - np.kron(static, values)
     right = np.kron(moving, values)
     at_ends = chebyshev.chebvander(np.array([-1.0, 1.0]), DEGREE)
     held = [np.kron(np.eye(4)[field], at_ends[side]) for side in (0, 1) for field in HELD[ends[side]]]
     left, right = np.vstack([left, *held]), np.vstack([right, np.zeros((4, right.shape[1]))])
-    found, modes = np.linalg.eig(np.linalg.solve(left, right))
+    found, modes = np.linalg.eig(np.linalg.solve(left, right)[: right.shape[1]])
     inverse = found.real  # 1/ω²: of a mode that has buckled, ω² is negative
     lowest = int(np.argmax(inverse))
     if inverse.min() < -ROUND_OFF * inverse[lowest]:
         return None
-    shape = modes[:, lowest].real.reshape(4, -1)[:2]
+    shape = modes[:, lowest].real.reshape(2, -1)
     return float(inverse[lowest]) ** -0.5, np.asarray(shape / chebyshev.chebval(0.0, shape[0]))

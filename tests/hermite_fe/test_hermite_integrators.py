@@ -129,7 +129,7 @@ def test_a_penalty_carries_a_weight_by_its_penetration_and_bounces_elastically_w
 
 def test_the_guide_s_integrator_gives_the_impulse_of_the_impact() -> None:
     impact, mesh = Impact.dimensionless(0.5, length=20.0), ScaleFreeMesh(element_length=2e-3, growth=1.02)
-    kinds = (guide_integrator()(time_step=2e-5, growth=4e-3), SignoriniPosition(time_step=1e-5, growth=2e-3))
+    kinds = (GUIDED["the guide's"](time_step=2e-5, growth=4e-3), SignoriniPosition(time_step=1e-5, growth=2e-3))
     new, known = (simulate(impact, end_time=0.1, mesh=mesh, integrator=kind) for kind in kinds)
     assert new.array("total_impulse")[-1] == pytest.approx(known.array("total_impulse")[-1], rel=3e-3)
     assert abs(new.energy_budget()["defect"]) < 1e-11 * new.energy_budget()["initial_energy"]
