@@ -2,6 +2,8 @@
 
 import itertools
 import math
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -20,6 +22,7 @@ from exudyn_models.contacts import Penalty, Rigid, SegmentFriction
 from exudyn_models.elements import ANCFCable, GeometricallyExact
 from exudyn_models.geometry import LinearLimit, TrueGeometry
 from exudyn_models.integrators import DOPRI5, RK44, GeneralizedAlpha, Newmark, VelocityVerlet
+from exudyn_models.recording import Recorder
 from exudyn_models.segments import growing_segments
 from theory import contact_parameters
 
@@ -189,3 +192,14 @@ def test_without_contact_y0_is_the_motion(psi, chi, tension, within, element):
     assert_allclose(-history.array("gap")[-1], y0, atol=2e-3 if psi and element == GeometricallyExact() else within)
     budget = history.energy_budget()
     assert abs(budget["defect"]) < 1e-6 * budget["initial_energy"]
+
+
+@pytest.mark.parametrize("moments", [[[1.0, -5.0], [2.0, 3.0]], [[1.0, 2.0], [-5.0, 3.0]]], ids=["left", "right"])
+def test_the_largest_moment_of_a_node_is_the_larger_of_its_two_sides(moments: list[list[float]]) -> None:
+    recorder: Any = Recorder.__new__(Recorder)
+    kept: list[float] = []
+    shape = SimpleNamespace(s=np.array([0.0, 1.0, 2.0]), place=np.array([0.0, 7.0, 9.0]))
+    recorder.beam = SimpleNamespace(shape=shape)
+    recorder._keep_largest = lambda name, *columns, anew: kept.extend(column.item() for column in columns)
+    recorder._note_moments(np.array([moments]))
+    assert kept == [5.0, 7.0, 1.0]  # the largest, its place, the one in the middle
