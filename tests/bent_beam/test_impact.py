@@ -59,6 +59,11 @@ def test_a_first_touch_without_a_bow_whose_apex_it_is_is_refused():
         with pytest.raises(ValueError, match=f"opposite_wall must leave room for the bow of {room} m"):
             Impact.whole_beam(1.0).replace(first_touch=touch, opposite_wall=0.99 * room)
         Impact.whole_beam(1.0).replace(first_touch=touch, opposite_wall=room)
+    for kappa in (1.0, 0.25):  # K s²/2 − q₀s⁴/24 is highest at s² = 6K/q₀, on the beam
+        back = Impact.whole_beam(kappa).replace(fourth_derivative=12.0 * kappa)
+        assert back.replace(opposite_wall=kappa / 8.0).opposite_wall == kappa / 8.0
+        with pytest.raises(ValueError, match=f"opposite_wall must leave room for the bow of {kappa / 8.0} m"):
+            back.replace(opposite_wall=0.99 * kappa / 8.0)
     with pytest.raises(ValueError, match=r"^first_touch, the place of .* has no effect on a straight beam"):
         bow.replace(curvature=0.0)
 

@@ -1,5 +1,7 @@
 """The expanding mesh: self-similar impacts at rest in it, against literal values of the theory (thesis 2.6.21–22)."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -142,6 +144,13 @@ REFUSED = [
 def test_what_breaks_self_similarity_or_is_impossible_is_refused_by_name(made, said):
     with pytest.raises(ValueError, match=said):
         made()
+
+
+def test_waves_reach_as_far_as_the_root_of_time_and_beyond_a_short_beam_it_is_said():
+    short = Impact.dimensionless(0.5, length=4.0)
+    said = [simulate_expanding(short, QUICK, end_time=end).warnings[0] for end in (0.1, 0.9)]
+    early, late = (float(re.findall(r"reach ([\d.]+) m, beyond the half length 2 m", one)[0]) for one in said)
+    assert late == pytest.approx(3.0 * early, rel=1e-2)
 
 
 def test_a_front_that_runs_out_of_its_mesh_is_an_error_with_what_was_reached():
