@@ -24,7 +24,7 @@ Energies = Mapping[str, float | None]
 LIGHTEST = {"youngs_modulus": (1e5, "Pa"), "density": (5.0, "kg/m³")}  # of materials, and units
 STUBBY = 15.0  # radii of gyration: some four depths
 STEEP = 0.3  # slope of the bow at the beam's ends from which the small-slope theory deserves a warning
-STRAIGHTENED = 0.1  # N L²/(π² EI) from which a tension deserves one
+STRAIGHTENED = 0.1  # N L²/(π² EI) of either sign, from which an axial force deserves one
 NOTABLE_LOSS = 0.02  # of the initial energy, likewise
 WIDE, LEAST_RESTITUTION = 0.1, 0.3  # of a number, an error bar, likewise; a smaller restitution counts as this
 MAY_BE_WIDE = {name: WHOLE[name].title for name in ("restitution", "impulse", "peak_moment", "peak_force")}
@@ -32,8 +32,8 @@ MAY_BE_WIDE |= {"half_contact_length": "half contact length"}
 
 
 def doubts(impact: Impact, section: Section | None) -> list[str]:
-    """Sentences on steep bows, straight beams, bows that a tension straightens, and what a stress includes. In units
-    EI = μ = V₀ = 1 the amplitude is free: no bow is steep."""
+    """Sentences on steep bows, straight beams, bows that an axial force straightens or bends, and what a stress
+    includes. In units EI = μ = V₀ = 1 the amplitude is free: no bow is steep."""
     found = []
     slope = impact.relative_curvature * impact.half_length
     if slope >= STEEP and not impact.bending_stiffness == impact.mass_per_length == impact.velocity == 1.0:
@@ -62,11 +62,12 @@ def doubts(impact: Impact, section: Section | None) -> list[str]:
         found.append("the second wall is flat and the first one curved: their distance varies along the beam")
     force, pull = impact.axial_force, impact.axial_force * impact.length**2
     pull /= math.pi**2 * impact.bending_stiffness
-    if pull > STRAIGHTENED and impact.curvature and impact.tension_direction == "axis" and not impact.supported:
+    if abs(pull) > STRAIGHTENED and impact.curvature and impact.tension_direction == "axis" and not impact.supported:
+        does = "tension, which straightens it" if pull > 0.0 else "compression, which bends it further"
+        at_rest = f" (at rest to about {100.0 / (1.0 + pull):.2g} % of its height)" if pull > -1.0 else ""
         found.append(
-            f"the bow is free of stress and not in equilibrium under the tension, which straightens it (at rest to "
-            f"about {100.0 / (1.0 + pull):.2g} % of its height); where other forces hold it, give "
-            'beam.tension_direction = "tangent" and impact.acceleration = 0'
+            f"the bow is free of stress and not in equilibrium under the {does}{at_rest}; where other forces hold it, "
+            'give beam.tension_direction = "tangent" and impact.acceleration = 0'
         )
     if force and section is not None:
         found.append(f"stresses include |N|/A = {1e-6 * section.stress(0.0, force):.4g} MPa of the axial force")

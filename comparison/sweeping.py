@@ -177,8 +177,8 @@ class SweepTable:
 
     @cached_property
     def units(self) -> dict[str, str]:
-        """Unit of each key that is varied, as ``bentbeam settings`` has it."""
-        known = {f"{one.table}.{one.name}": one.unit for one in settings()}
+        """Unit of each key that is varied, as ``bentbeam settings`` has it; "" of a pure number."""
+        known = {f"{one.table}.{one.name}": "" if one.unit == "1" else one.unit for one in settings()}
         return {key: known.get(key, "") for key in self.vary}
 
     def to_dict(self) -> dict[str, Any]:

@@ -1,5 +1,4 @@
-"""Answers for a reader: a prediction, a whole impact, a run; in kN, MPa, ms, with the digits that the error bar
-carries. Each is made of the document that ``--json`` prints."""
+"""Answers for a reader, in kN, MPa, ms, with the digits that the error bar carries, of the documents of ``--json``."""
 
 from __future__ import annotations
 
@@ -52,6 +51,7 @@ def prediction_text(document: dict[str, Any]) -> str:
     """What :func:`comparison.predicting.predict_case` found, in the order in which it is asked for."""
     lines = [
         f"{REGIMES[document['regime']]} kappa/nu = {document['kappa_over_nu']:.4g} (it spreads below 1).",
+        *["So it is on a rigid wall; this one gives way."] * (document["wall"] is not None),
         beam_line(document["model"], document["velocity"]),
         validity_text(document),
         *("", _instants(document), ""),
@@ -69,18 +69,20 @@ def _with_warnings(lines: Sequence[str], document: dict[str, Any]) -> str:
 
 def validity_text(document: dict[str, Any]) -> str:
     """From when, until when and why no longer the theory holds."""
-    why = LIMITS[document["limited_by"]]
+    why, before = LIMITS[document["limited_by"]], BEFORE.get(document["valid_after"], "")
     if not document["valid_until"]:
         return f"The theory covers no time: {why}."
-    before = BEFORE.get(document["valid_after"], "")
     start = f"from {milliseconds(document['valid_from'])} (before, {before}) " if before else ""
     lines = [f"The theory holds to 2 % {start}until {milliseconds(document['valid_until'])}: then {why}."]
     if document["force_until"] < document["valid_until"]:
         begin = milliseconds(max(document["force_until"], document["valid_from"]))
         lines.append(f"From {begin} on it has no reaction: waves from the ends swing the force.")
     loads = any(document[f"epsilon_{load}"] for load in ("alpha", "psi", "chi", "axial"))
-    if left_out := [w for w, acts in (("loads", loads), ("shear", document["model"] == "timoshenko")) if acts]:
+    acting = {"loads": loads, "shear": document["model"] == "timoshenko", "the wall's give": document["wall"]}
+    if left_out := [name for name, acts in acting.items() if acts]:
         lines.append(f"Its moment leaves out {' and '.join(left_out)}.")  # it is of leading order
+    if acting["shear"] and document["regime"] == "discrete":
+        lines.append("Its half contact is that without loads and damping.")
     return "\n".join(lines)
 
 
@@ -129,12 +131,12 @@ def _largest(document: dict[str, Any]) -> list[str]:
         until = f"until {milliseconds(document['valid_until'])}, when {LIMITS[document['limited_by']]}"
         lines.append(f"  {until} (theory): " + ("not known" if known is None else f"{known * scale:.4g}"))
     if last.get("simulation", {}).get(name):
-        until = f"until {milliseconds(last['time'])}"
-        lines.append(f"  {until} (simulation): {_scaled(last['simulation'][name], scale)}")
+        until, found = milliseconds(last["time"]), _scaled(last["simulation"][name], scale)
+        lines.append(f"  until {until} (simulation): {found}")
     if whole is None:
         return [*lines, f"  of the whole impact: not known here ({document['no_whole_impact']}); it may be larger"]
-    until = f"until {milliseconds(whole['span'][1])}"
-    lines.append(f"  of the whole impact, {until} (simulation): {_scaled(whole[name], scale)}")
+    until, found = milliseconds(whole["span"][1]), _scaled(whole[name], scale)
+    lines.append(f"  of the whole impact, until {until} (simulation): {found}")
     lines += [f"  {line}" for line in _over_damping(whole["over_damping"] or (), name, scale)]
     if document["yield_stress"]:
         lines.append(f"  the material yields at: {document['yield_stress'] * 1e-6:.4g}")
@@ -150,11 +152,11 @@ def _over_damping(rows: Sequence[dict[str, Any]], name: str, scale: float) -> li
 def _whole(document: dict[str, Any]) -> list[str]:
     if not (whole := document["whole_impact"]):
         return []
-    force, said = whole["peak_force"], [f"warning: {w}" for w in whole["warnings"] if w not in document["warnings"]]
-    largest = f"Largest impulse within {milliseconds(whole['push_window'])}: {_scaled(whole['push'], 1.0)} N s. "
-    if force:
-        largest = f"Largest force of the whole impact: {_scaled(force, 1e-3)} kN. "
-    largest += _hardest(whole)
+    said = [f"warning: {w}" for w in whole["warnings"] if w not in document["warnings"]]
+    largest = f"Largest impulse within {milliseconds(whole['push_window'])}: {_scaled(whole['push'], 1.0)} N s."
+    if force := whole["peak_force"]:
+        largest = f"Largest force of the whole impact: {_scaled(force, 1e-3)} kN."
+    largest = f"{largest} {_hardest(whole)}"
     if whole["restitution"]["value"] is None and "band" not in whole["restitution"]:
         return [largest, *said]
     restitution, last = _scaled(whole["restitution"], 1.0), _scaled(whole["last_contact"], 1e3)
@@ -171,8 +173,7 @@ def _hardest(found: dict[str, Any]) -> str:
 
 
 def wall_lines(document: dict[str, Any]) -> list[str]:
-    """Lines for ``document["wall"]`` of a prediction (:class:`theory.wall_prediction.WallPrediction`); none of a rigid
-    wall."""
+    """On the largest force of a prediction (:class:`theory.wall_prediction.WallPrediction`); none of a rigid wall."""
     if (wall := document.get("wall")) is None:
         return []
     if wall["peak_force"] is None:
@@ -182,7 +183,7 @@ def wall_lines(document: dict[str, Any]) -> list[str]:
         f"Largest force on the wall (theory, an infinite beam): {force:.4g} kN at {time:.3g} ms, over a zone of "
         f"± {wall['half_contact_length']:.3g} m.",
         f"Largest penetration {1e3 * wall['penetration']:.3g} mm, pressure {1e-3 * wall['pressure']:.3g} kN/m. "
-        f"Half or twice the stiffness: {force * 0.5**0.25:.4g} or {force * 2.0**0.25:.4g} kN.",
+        f"Half or twice the stiffness, at this damping ratio: {force * 0.5**0.25:.4g} or {force * 2.0**0.25:.4g} kN.",
     ]
     if wall["spoiled_by"] is not None:
         lines.append(f"This force does not hold for this beam (limit: {wall['spoiled_by']}): use the simulation.")

@@ -69,7 +69,7 @@ def end_warnings(impact: Impact, end_time: float, nodes: Array, far_field: FarFi
     out = []
     place, _ = front(impact, end_time)
     half, last = float(nodes[-1]), float(nodes[-1] - nodes[-2])
-    if place > half and impact.kappa_over_nu > 0.0:
+    if place > half and (0.0 < impact.kappa_over_nu < 1.0 or impact.zone_pressure > 0.0):
         out.append(
             f"the contact may reach the end of the beam: it may spread to {place:.3g} m, the end is at {half:.3g} m"
         )

@@ -84,7 +84,8 @@ class Prediction:
             constant in time; where the theory never holds, they are those without damping. None as in
             `PredictionAtTime`. Waves that come back from the ends make larger ones: they are those of the first
             instants only.
-        valid_from, valid_until: s; half length and impulse are within 2 % between them (`theory.validity`).
+        valid_from, valid_until: s; half length and impulse are within 2 % between them (`theory.validity`), but for the
+            half length of one point that shears under a load or with damping, which it leaves out.
         force_until: s; until then the force, a mean over a tenth of the time before and after, is within 2 %, too.
             `times` beyond keep it; ``bentbeam predict`` leaves it out.
         valid_after: what spoils them before valid_from, one of the names in `theory.validity`; None: nothing does.
@@ -92,7 +93,8 @@ class Prediction:
         yields: whether the stress at leading order without damping is beyond the yield stress; None if either is not
             known.
         peak_force: the largest force on the whole zone, N; None on a rigid wall, where it is infinite.
-        wall: that with all about a wall that gives way. Everything else is that of a rigid wall.
+        wall: that with all about a wall that gives way. Everything else is that of a rigid wall, but for the half
+            length, which is `WallPrediction.zone_offset` longer.
     """
 
     kappa_over_nu: float
@@ -171,7 +173,8 @@ def predict(impact: Impact, times: Iterable[float] | float = (), *, section: Sec
     if impact.damping > 0.0 and 0.0 < holds.valid_until < math.inf:  # grows until then
         last = _at_time(impact, solved, bending, holds.valid_until * (1.0 - 1e-9), None)
         peak, stress = last.peak_moment, last.peak_stress
-    rows = tuple(_at_time(impact, solved, bending, t, holds.spoiled_by(t)) for t in instants)
+    offset = 0.0 if wall is None else wall.zone_offset
+    rows = tuple(_at_time(impact, solved, bending, t, holds.spoiled_by(t), offset) for t in instants)
     return Prediction(
         **{name: getattr(impact, name) for name in _OF_IMPACT},
         **{name: getattr(solved, name) for name in _OF_CONTACT},
@@ -235,8 +238,9 @@ class _Bending:
 
 
 def _at_time(
-    impact: Impact, solved: ContactParameters, bending: _Bending, t: float, spoiled_by: str | None
+    impact: Impact, solved: ContactParameters, bending: _Bending, t: float, spoiled_by: str | None, offset: float = 0.0
 ) -> PredictionAtTime:
+    """offset : of the rim before the place of the force on a wall that gives way, m."""
     tau = t / impact.time_scale
     age = t / impact.damping if impact.damping > 0.0 else math.inf
     of_force = of_impulse = of_acceleration = 1.0
@@ -264,16 +268,17 @@ def _at_time(
     if impact.shear_stiffness is not None and t > 0.0:  # its own leading order in place of Euler and Bernoulli's
         unit = impact.velocity * math.sqrt(impact.shear_stiffness * impact.mass_per_length)
         age = t / impact.shear_time
-        rim, push, given = first_instants(
+        zone, push, given = first_instants(
             impact.kappa_over_nu, solved, impact.shear_ratio, age, impact.damping / impact.shear_time
         )
-        length += impact.shear_length * rim - root * math.sqrt(t) * solved.lambda0
+        length += impact.shear_length * zone - root * math.sqrt(t) * solved.lambda0
         force += unit * push * math.sqrt(t) - front * of_force * solved.r0
         impulse += unit * impact.shear_time * given - 2.0 * front * math.sqrt(t) * of_impulse * solved.r0
+    rim = length + offset if solved.lambda0 > 0.0 else length
     return PredictionAtTime(
         time=t,
         tau=tau,
-        half_contact_length=length if exists else None,
+        half_contact_length=min(rim, impact.half_length) if exists else None,
         reaction=force / math.sqrt(t) + 2.0 * length * uniform if exists and t > 0.0 else None,
         contact_force_per_length=uniform if exists else None,
         impulse=impulse if exists else None,

@@ -20,7 +20,7 @@ from bent_beam.impact import Impact
 from bent_beam.loads import wall_scales
 from theory.contact import ContactParameters
 from theory.elastic_wall import FLATTEST, MOST_DAMPED, SHARPEST, peak_force
-from theory.validity import DAMPING, SHEAR, validity
+from theory.validity import DAMPING, FIRST_ORDER, SHEAR, TOLERANCE, validity
 
 #: κ/ν of the flattest zone, and the least ζ, whose force and impulse were seen to come back to the rigid wall's.
 FLATTEST_SETTLED, LEAST_DAMPED = 0.35, 0.25
@@ -47,9 +47,9 @@ class WallPrediction:
         peak_force, peak_force_error, peak_force_time: the largest force on the whole zone, N, and when it acts, s.
         half_contact_length: of the zone then, m.
         penetration, pressure: the largest anywhere, m and N/m.
-        spoiled_by: what changes force and penetration before they are largest, one of the names in `theory.validity`;
-            None: nothing.
-        zone_offset: what the zone is longer by later, m; 0 for one point, whose zone shrinks.
+        spoiled_by: what changes force and penetration by more than 2 % before they are largest, one of the names in
+            `theory.validity`; None: nothing.
+        zone_offset: what the wall makes the zone longer by later, m; 0 for one point, whose zone shrinks.
         rigid_from: time after which the force over a tenth of the time, its place and the impulse are those of the
             rigid wall to 2 %, s; infinite where none is known.
     """
@@ -68,9 +68,13 @@ class WallPrediction:
     rigid_from: float
 
 
-def zone_offset(kappa_over_nu: float) -> float:
-    """What an elastic wall adds to the half contact length of a rigid one in the end, (EI/k)^{1/4}; 0 for one point."""
-    return math.sqrt(2.0) if kappa_over_nu < 1.0 else 0.0
+def zone_offset(kappa_over_nu: float, shear: float = 0.0) -> float:
+    """What an elastic wall adds to the half contact length of a rigid one in the end, (EI/k)^{1/4}; 0 for one point.
+
+    Behind the rim a beam on springs is pressed by e^{−ay} sin by, a² + b² = 1, 4a² = 2 + s², ``shear`` s = l_s/ℓ_k: its
+    force acts 2a behind the rim, that of a rigid wall s.
+    """
+    return math.hypot(math.sqrt(2.0), shear) - shear if kappa_over_nu < 1.0 else 0.0
 
 
 def on_elastic_wall(impact: Impact, solved: ContactParameters) -> WallPrediction | None:
@@ -98,7 +102,7 @@ def on_elastic_wall(impact: Impact, solved: ContactParameters) -> WallPrediction
         time_scale=scales.time,
         length_scale=scales.length,
         damping_ratio=damping,
-        zone_offset=scales.length * zone_offset(ratio),
+        zone_offset=scales.length * zone_offset(ratio, impact.shear_length / scales.length),
         rigid_from=scales.time * _rigid_from(ratio, damping, float(solved.lambda0)),
         **largest,
     )
@@ -111,7 +115,15 @@ def _spoiled_by(impact: Impact, solved: ContactParameters, wall_time: float, pea
     sheared = SHEAR_TIMES if solved.kappa_over_nu < 1.0 else POINT_SHEAR_TIMES
     if impact.shear_stiffness is not None and wall_time < sheared * impact.shear_time:
         return SHEAR
-    return validity(impact.unsheared.replace(damping=0.0), solved).spoiled_by(peak_time)
+    free = validity(impact.unsheared.replace(damping=0.0), solved).spoiled_by(peak_time)
+    return FIRST_ORDER if free is None and _change_by_loads(impact, solved, peak_time) > TOLERANCE else free
+
+
+def _change_by_loads(impact: Impact, solved: ContactParameters, time: float) -> float:
+    """What loads change of a rigid wall's force at a time, s, to first order; a share."""
+    tau = time / impact.time_scale
+    of_zone = math.sqrt(0.5 * math.pi) * solved.lambda0 * float(solved.uniform_reaction) * tau
+    return abs(solved.r1 * tau + of_zone) / solved.r0
 
 
 def _rigid_from(ratio: float, damping: float, lambda0: float) -> float:

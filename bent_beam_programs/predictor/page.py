@@ -16,7 +16,7 @@ from bent_beam.files import write_atomically
 from bent_beam.measure.numbers import FACTOR
 from bent_beam_programs.predictor.coefficients import coefficients
 from comparison.bouncing import DAMPING_RATIOS, RETURNS
-from comparison.doubts import LEAST_RESTITUTION, STEEP, WIDE
+from comparison.doubts import LEAST_RESTITUTION, STEEP, STRAIGHTENED, STUBBY, WIDE
 from comparison.readable import BEAMS, BEFORE, LIMITS, REGIMES
 from comparison.runs import CHATTER, LEAST, LEAST_LIGHT, LIGHT
 from theory import contact_parameters, damped_point, shear, validity, wall_prediction
@@ -30,7 +30,8 @@ WORDS = {"regimes": REGIMES, "limits": LIMITS, "before": BEFORE, "beams": BEAMS}
 """What ``bentbeam predict`` says of contact, theory and beam."""
 
 
-DOUBTS = {"wide": WIDE, "least_restitution": LEAST_RESTITUTION, "steep": STEEP}
+DOUBTS = {"wide": WIDE, "least_restitution": LEAST_RESTITUTION, "steep": STEEP, "stubby": STUBBY,
+          "straightened": STRAIGHTENED}  # fmt: skip
 """From when on ``bentbeam bounce`` warns."""
 BARS = {"factor": FACTOR, "least": LEAST, "light": LIGHT, "leastLight": LEAST_LIGHT, "chatter": CHATTER,
         "returns": RETURNS, "ratios": DAMPING_RATIOS}  # fmt: skip

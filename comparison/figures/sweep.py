@@ -72,7 +72,7 @@ def _grid(found: SweepTable, name: str) -> tuple[Any, Any, str]:
 
 
 def _with_unit(words: str, unit: str) -> str:
-    return f"{words}  ({unit})" if unit not in ("", "1") else words
+    return f"{words}  ({unit})" if unit else words
 
 
 def _axis_of(found: SweepTable, key: str) -> tuple[Any, str]:
@@ -97,7 +97,8 @@ def _curves(axis: Any, found: SweepTable, name: str) -> None:
         colour = style.SEQUENCE[i % len(style.SEQUENCE)]
         look = {"color": colour, "marker": "o", "ms": 3.0, "mfc": "white", "ls": "-" if joined else ""}
         if len(keys) == 2:
-            look["label"] = f"{keys[1].rpartition('.')[2]} = {readable(found.vary[keys[1]][i])} {found.units[keys[1]]}"
+            unit = found.units[keys[1]]
+            look["label"] = f"{keys[1].rpartition('.')[2]} = {readable(found.vary[keys[1]][i])} {unit}".rstrip()
         style.bars(axis, x[order], values[order, i], bars[order, i], look)
     highest = float(np.nanmax(values + bars))
     axis.set(xlabel=label, ylabel=title, ylim=(min(0.0, 1.08 * float(np.nanmin(values - bars))), 1.08 * highest))

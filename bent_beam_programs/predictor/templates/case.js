@@ -99,7 +99,9 @@ const Case = (() => {
       if (v && i.gravity === null && i.approach !== "drop")
         throw new Error("impact.gravity_angle has no effect without impact.gravity");
       i.gravity ??= i.approach === "drop" ? Beam.GRAVITY : 0;
-      i.gravity *= Math.abs(v) === 90 ? 0 : Math.cos(v * Math.PI / 180);
+      const towards = i.gravity * (Math.abs(v) === 90 ? 0 : Math.cos(v * Math.PI / 180));
+      i.gravity = Math.max(towards, 0);
+      if (towards < 0) i.load = towards * Beam.impact(i).mass; // away from the wall
     },
     "impact.acceleration": (i, v) => { const b = Beam.impact(i); i.load = (v - b.acceleration) * b.mass; },
     "wall.curvature": (i, v) => { i.wall_curvature = v; },

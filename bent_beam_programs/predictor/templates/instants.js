@@ -72,6 +72,11 @@ const Instants = (() => {
       impulse += unit * time * J - 2 * front * ofImpulse * r0;
     }
     force += 2 * halfLength * pressure;
+    if (b.wallStiffness && lambda0 > 0) { // the rim runs ahead of the force
+      const spread = b.shear ? sqrt(b.stiffness / b.shear) : 0;
+      halfLength += Math.hypot(Math.SQRT2 * (b.stiffness / b.wallStiffness) ** 0.25, spread) - spread;
+      halfLength = min(halfLength, p.half);
+    }
     const factor = single ? Point.erf(sqrt(min(age, 100))) : 1, known = !single || age >= VALIDITY.ahead_from;
     const moment = bending(p, contact, factor, known);
     return { exists, halfLength, force, impulse, moment, stress: moment === null ? null : Beam.stress(b, moment) };

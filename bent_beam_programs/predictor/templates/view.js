@@ -2,7 +2,7 @@
 // The page: inputs → runs in two workers, one for a first picture at once, one for numbers with bars → words and plots.
 (() => {
   const { find, element, quantity, inputs } = Form, { text } = Draw;
-  const { COMMAND, number, holding, atEnd, percent, warnings } = Words;
+  const { COMMAND, number, verdict, holding, atEnd, percent, warnings } = Words;
   const PATIENCE = 250; // ms without a change before bars are computed
   const source = URL.createObjectURL(new Blob([find("#simulation").textContent], { type: "text/javascript" }));
   function hire() {
@@ -78,8 +78,8 @@
       K: `${text(b.curvature, 5)} 1/m`, "V₀": `${text(b.velocity, 5)} m/s`,
     };
     const words = {
-      verdict: WORDS.regimes[contact.regime],
-      holds: holding(limits, b),
+      verdict: verdict(b, contact),
+      holds: holding(limits, b, contact),
       theory: limits.until ? atEnd(theory) : "",
       groups: Object.entries(groups).map(([name, value]) => `${name} = ${value}`).join(" · "),
       model: WORDS.beams[b.shear ? "timoshenko" : "euler_bernoulli"],

@@ -12,15 +12,21 @@ const Words = (() => {
     return [written, symbol, runs ? `(band of ${runs} runs)` : ""].filter(Boolean).join(" ");
   }
 
+  /** What a contact does; contact as the theory solves it. */
+  const verdict = (b, { regime }) => (
+    WORDS.regimes[regime] + (b.wallStiffness ? " So it is on a rigid wall; this one gives way." : ""));
+
   /** When the first instants hold. */
-  function holding({ from, until, forceUntil, by, after }, b) {
+  function holding({ from, until, forceUntil, by, after }, b, { regime }) {
     if (!until) return `The theory covers no time: ${WORDS.limits[by]}.`;
     const start = after ? `from ${quantity("time", from, 3)} (before, ${WORDS.before[after]}) ` : "";
     const swings = `From ${quantity("time", Math.max(forceUntil, from), 3)} on `
       + "it has no reaction: waves from the ends swing the force.";
-    const left = [b.acceleration || b.tension ? "loads" : "", b.shear ? "shear" : ""].filter(Boolean).join(" and ");
+    const acting = { loads: b.acceleration || b.tension, shear: b.shear, "the wall’s give": b.wallStiffness };
+    const left = Object.keys(acting).filter((name) => acting[name]).join(" and ");
+    const point = b.shear && regime === "discrete" ? " Its half contact is that without loads and damping." : "";
     return `The theory holds to 2 % ${start}until ${quantity("time", until, 3)}: then ${WORDS.limits[by]}.`
-      + (left && ` Its moment leaves out ${left}.`)
+      + (left && ` Its moment leaves out ${left}.`) + point
       + (forceUntil < until ? ` ${swings}` : "");
   }
 
@@ -39,6 +45,8 @@ const Words = (() => {
     const wide = (one, least = 0) => one.bar > DOUBTS.wide * Math.max(Math.abs(one.value), least);
     const wides = whole && problem.eta && (wide(moment) || wide(restitution, DOUBTS.least_restitution));
     const back = restitution.value !== null && problem.load + problem.pull > 0;
+    const pull = b.tension * b.length ** 2 / (Math.PI ** 2 * b.stiffness), bends = pull > 0 ? "straightens it" : "bends it further";
+    const radius = Math.sqrt(b.turning / b.mass); // of gyration, of a beam that shears
     const said = [
       [!problem.eta, "Without damping the outcome is irregular and does not converge: a band is given."],
       [!problem.eta, `${COMMAND} takes more runs for it.`],
@@ -48,9 +56,12 @@ const Words = (() => {
       [whole && restitution.value === null, "The loads keep the beam on the wall: no restitution is given."],
       [back, "The loads bring the beam back to the wall; these numbers are those of the first hit."],
       [(b.curvature - b.wallCurvature) * b.length / 2 >= DOUBTS.steep, "The bow is steep: all this is for small slopes."],
+      [Math.abs(pull) > DOUBTS.straightened, `The bow is not in equilibrium under the axial force, which ${bends}.`],
+      [b.tension, `Stresses include ${quantity("stress", Beam.stress(b, 0), 4)} of the axial force.`],
+      [b.length < DOUBTS.stubby * radius, `The beam is only ${text(b.length / radius, 2)} radii of gyration long.`],
     ];
     return said.filter(([is]) => is).map(([, sentence]) => sentence);
   }
 
-  return { COMMAND, number, holding, atEnd, percent, warnings };
+  return { COMMAND, number, verdict, holding, atEnd, percent, warnings };
 })();
