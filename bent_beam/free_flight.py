@@ -23,7 +23,8 @@ from bent_beam.hysteresis import FIRST_MODE, branches_of
 from bent_beam.impact import Impact
 from bent_beam.loads import loads_of
 
-__all__ = ["LOWEST_PERIOD", "Separation", "acting", "bears_free_flight", "cannot_return", "has_left"]
+__all__ = ["LOWEST_PERIOD", "Separation", "acting", "bears_free_flight", "cannot_return", "has_left",
+           "may_return"]  # fmt: skip
 
 Array = NDArray[np.float64]
 
@@ -56,8 +57,11 @@ def cannot_return(impact: Impact, x: Array, gap: Array, velocity: Array, energy:
     x : node places, m, of the whole beam or of its half x ≥ 0; gap (m) and velocity into the wall (m/s) there.
     energy : kinetic and strain, of the whole beam, J.
     """
-    if not bears_free_flight(impact):
-        return False
+    return bears_free_flight(impact) and _stays_clear(impact, x, gap, velocity, energy)
+
+
+def _stays_clear(impact: Impact, x: Array, gap: Array, velocity: Array, energy: float) -> bool:
+    """Whether no point can come back to where a wall stands, or would stand if it went on."""
     half = x[0] >= 0.0
     free = gap - 0.5 * impact.relative_curvature * (x - impact.first_touch) ** 2  # zero for an unstrained beam at rest
     distance, tilt = _rigid(x, free, half)
@@ -78,17 +82,27 @@ def cannot_return(impact: Impact, x: Array, gap: Array, velocity: Array, energy:
 State = tuple[Array, Array, Array, float]
 
 
+def _last(history: ImpactHistory) -> State:
+    energy = float(history.array("kinetic_energy")[-1] + history.array("strain_energy")[-1])
+    return history.positions(-1), history.array("gap", -1), history.array("velocity", -1), energy
+
+
 def has_left(history: ImpactHistory) -> bool:
     """Whether a run ends with the beam off the wall for good: it cannot return, or, where that cannot be told, has not
     pushed for a period of its lowest mode."""
     pushed = np.flatnonzero(acting(history.array("total_impulse")))
-
-    def last() -> State:
-        energy = float(history.array("kinetic_energy")[-1] + history.array("strain_energy")[-1])
-        return history.positions(-1), history.array("gap", -1), history.array("velocity", -1), energy
-
     quiet = history.time[-1] - history.time[pushed[-1]] if pushed.size else 0.0  # the run itself knows the step
-    return pushed.size > 0 and _is_off(history.impact, float(quiet), last)
+    return pushed.size > 0 and _is_off(history.impact, float(quiet), lambda: _last(history))
+
+
+def may_return(history: ImpactHistory) -> bool:
+    """Whether a beam that no load presses may come back to its wall after the end of a run: what swings about a hinge
+    does under tension, what is free unless (1) forbids it."""
+    impact = history.impact
+    if impact.supported or impact.net_load < 0.0:
+        return impact.supported and impact.axial_force > 0.0
+    whole = impact.replace(wall_from=None, wall_to=None)
+    return not (bears_free_flight(whole) and _stays_clear(impact, *_last(history)))
 
 
 def _is_off(impact: Impact, quiet: float, state: Callable[[], State]) -> bool:

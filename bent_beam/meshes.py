@@ -64,8 +64,8 @@ def snapped(nodes: Array, wall_span: tuple[float, float]) -> Array:
     moved, near, edges = nodes.copy(), NEAR * nodes[-1], np.unique(np.abs(wall_span))
     edges = edges[(edges > near) & (edges < nodes[-1] - near)]
     edges = edges[np.diff(edges, prepend=-np.inf) > near]  # of both sides, but for round-off
-    for edge in edges:
-        moved[1 + np.argmin(np.abs(nodes[1:-1] - edge))] = edge
+    for edge in edges:  # between two that are as near, but for round-off, onto the inner
+        moved[1 + np.argmin(np.round(np.abs(nodes[1:-1] - edge) / nodes[-1], 9))] = edge
     if not np.all(np.isin(edges, moved)) or np.any(np.diff(moved) < SLIVER * np.diff(nodes)):
         raise InputError(f"mesh has too large elements for a wall from {wall_span[0]!r} to "
                          f"{wall_span[1]!r} m: each edge takes a node of its own")  # fmt: skip

@@ -139,10 +139,11 @@ class Bounce:
             )
         elif not self.left:
             found.append(f"a run ended with the beam at the wall: {stays}")
-        elif pressed:
+        elif pressed or self.outcome.again or (self.impact.supported and self.impact.axial_force > 0.0):
+            back = "the beam comes back" if self.outcome.again and not pressed else "the loads bring the beam back"
             found.append(
-                "the loads bring the beam back to the wall; these numbers are those of the first hit, later ones may "
-                "be larger: bentbeam bounce --hits 3 lists three"
+                f"{back} to the wall; these numbers are those of the first hit, later ones may be larger: "
+                "bentbeam bounce --hits 3 lists three"
             )
         return [*found, *wide_bars(self.numbers), *self.runs.warnings, *others]
 

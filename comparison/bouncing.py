@@ -15,7 +15,7 @@ from typing import Any
 
 from bent_beam import Case, Impact, ImpactHistory, InputError, load_case
 from bent_beam.checks import finite
-from bent_beam.free_flight import LOWEST_PERIOD
+from bent_beam.free_flight import LOWEST_PERIOD, may_return
 from bent_beam.hysteresis import converges
 from bent_beam.measure.balance import balance_of
 from bent_beam.measure.numbers import FACTOR, Band, Number
@@ -164,10 +164,12 @@ def follow_hits(impact: Impact, method: Method, count: int, *, first: ImpactHist
     fall = impact.net_load / impact.mass_per_length  # acceleration back to the wall, m/s²
     end, longest = 2.0 * period, LONGEST * impact.slow_time_scale
     while True:
-        found = hits(chosen.simulate(impact, end_time=end, save=separation_times(impact, end, INSTANTS)))
+        run = chosen.simulate(impact, end_time=end, save=separation_times(impact, end, INSTANTS))
+        found = hits(run)
         over = [hit for hit in found if end - hit.end >= period]
         rests = len(over) < len(found) and end - found[-1].begin >= RESTS * period
-        if len(over) >= count or rests or end >= longest or (over and fall <= 0.0):
+        gone = over and fall <= 0.0 and not may_return(run)
+        if len(over) >= count or rests or end >= longest or gone:
             return [*hits(first)[:1], *over[1:count]]
-        flight = 2.0 * max(-over[-1].after, 0.0) / fall if over else 0.0
+        flight = 2.0 * max(-over[-1].after, 0.0) / fall if over and fall > 0.0 else 0.0
         end = min(max(2.0 * end, end + flight + 2.0 * period), longest)

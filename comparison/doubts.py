@@ -64,7 +64,7 @@ def doubts(impact: Impact, section: Section | None) -> list[str]:
     pull /= math.pi**2 * impact.bending_stiffness
     if abs(pull) > STRAIGHTENED and impact.curvature and impact.tension_direction == "axis" and not impact.supported:
         does = "tension, which straightens it" if pull > 0.0 else "compression, which bends it further"
-        at_rest = f" (at rest to about {100.0 / (1.0 + pull):.2g} % of its height)" if pull > -1.0 else ""
+        at_rest = f" (at rest to about {float(f'{100.0 / (1.0 + pull):.2g}'):g} % of its height)" if pull > -1.0 else ""
         found.append(
             f"the bow is free of stress and not in equilibrium under the {does}{at_rest}; where other forces hold it, "
             'give beam.tension_direction = "tangent" and impact.acceleration = 0'

@@ -20,6 +20,7 @@ ELEMENTS_PER_FRONT = 2.0  # fewer in ℓ deserve a warning
 MOST_ROUNDS = 100  # of the active set in one step; sound runs take ten or so
 BY_GRID = "; grid viscosity damps it, of which HermiteFE().for_whole_beam(impact) has none"
 LARGEST_LIFT = 1e-2  # of V₀t; r₀ may be too large by as much (docs/numerics.md)
+EMITTED = 10.0 ** np.arange(-9.0, 1.0, 0.02)  # T*: times at which waves are looked at, the same for all runs
 DAMPED = 4.0  # elements within √(cη), or within l_s, from which on all schemes lift a zone alike (within a fifth)
 
 
@@ -62,9 +63,9 @@ def end_warnings(impact: Impact, end_time: float, nodes: Array, far_field: FarFi
     """What the ends of the beam may do to the contact within the run.
 
     A wave of number k travels at 2k√(EI/μ). The front radiates waves of its own number 1/ℓ(t), the shorter
-    the earlier, with an energy in proportion to √t: those of the first hundredth of the run carry a tenth.
-    The rest is looked at here, as far as the elements at the end carry it (k Δx < 1; shorter waves are
-    absorbed at grid scale).
+    the earlier, with an energy in proportion to √t: those of the first hundredth of the time until they are
+    back carry a tenth. The rest is looked at here, as far as the elements at the end carry it (k Δx < 1; shorter
+    waves are absorbed at grid scale).
     """
     out = []
     place, _ = front(impact, end_time)
@@ -73,10 +74,10 @@ def end_warnings(impact: Impact, end_time: float, nodes: Array, far_field: FarFi
         out.append(
             f"the contact may reach the end of the beam: it may spread to {place:.3g} m, the end is at {half:.3g} m"
         )
-    emitted = end_time * np.geomspace(0.01, 1.0, 40)
-    number = np.array([1.0 / front(impact, t)[1] for t in emitted])
-    arrival = emitted + max(2.0 * half - place, 0.0) / (2.0 * number * impact.wave_constant)
-    returning = arrival[(number * last < 1.0) & (arrival < end_time)]
+    emitted = impact.slow_time_scale * EMITTED
+    reached, thickness = np.array([front(impact, t) for t in emitted]).T
+    arrival = emitted + np.maximum(2.0 * half - reached, 0.0) * thickness / (2.0 * impact.wave_constant)
+    returning = arrival[(last < thickness) & (arrival < end_time) & (emitted > 0.01 * arrival)]
     if returning.size:
         out.append(
             f"{REFLECTED} (x = {half:.3g} m) and be back at the contact from about "

@@ -62,7 +62,8 @@ class WholeImpact:
     supplied : the initial energy and the work of the loads until then, J.
     energy_defect : what the independently computed terms of the budget leave, of the initial energy; energy_gain : the
         largest rise of the energy, what springs of the wall hold included, above what loads have worked, likewise.
-    left : whether the beam is off the wall for good; otherwise no number is final.
+    left : whether the beam is off the wall for good; otherwise no number is final. again : whether the run has later
+        hits.
     """
 
     restitution: float | None
@@ -92,6 +93,7 @@ class WholeImpact:
     energy_defect: float
     energy_gain: float
     left: bool
+    again: bool = False
 
 
 def pushes(time: Array, impulse: Array, shortest: float) -> list[tuple[int, int]]:
@@ -173,6 +175,7 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
         energy_defect=abs(history.energy_budget()["defect"]) / initial,
         energy_gain=float(np.max(np.diff(energy + held - work), initial=0.0)) / initial,
         left=left,
+        again=len(contacts) > len(hit),
     )
 
 
@@ -223,8 +226,11 @@ def _velocity(history: ImpactHistory, k: int, time: float) -> float:
     """Velocity of the centre of mass into the wall at saved instant ``k``, or at ``time``, s, before it and after its
     last push, m/s."""
     impact, x = history.impact, history.positions(k)
-    if impact.supported:  # by forces that no history holds
-        return float(np.trapezoid(history.array("velocity", k), x) / (x[-1] - x[0]))
+    if impact.supported:  # by forces that no history holds, and which change it between a push and the instant after
+        two = slice(k, min(k + 2, history.time.size))
+        means = np.trapezoid(history.array("velocity", two), x, axis=1) / (x[-1] - x[0])
+        slope = np.diff(means) / np.diff(history.time[two])
+        return float(means[0] + (time - history.time[k]) * slope.sum())
     places = np.array([-impact.half_length, 0.0, impact.half_length]) - impact.first_touch
     # V₀ + c₀x²/2 and the rotation, averaged: Simpson's rule is exact
     arrives = float(impact.free_motion(0.0)(places, by_t=1) @ (1.0, 4.0, 1.0)) / 6.0
@@ -271,7 +277,8 @@ def hits(history: ImpactHistory) -> list[Hit]:
         given = rows[wall][k] - rows[wall][i]
         size = np.abs(given)
         place = float(size @ np.abs(history.contact_positions(0))) / float(size.sum())
-        before, after = (_velocity(history, n, float(time[n])) for n in (i, k))
+        end = 0.5 * float(time[k - 1] + time[k])
+        before, after = _velocity(history, i, float(time[i])), _velocity(history, k, end)
         numbers = (place, given.sum(), before, after, energy[k] + work[k], energy[i] - energy[k])
-        found.append(Hit(wall, float(time[i]), 0.5 * float(time[k - 1] + time[k]), *map(float, numbers)))
+        found.append(Hit(wall, float(time[i]), end, *map(float, numbers)))
     return found

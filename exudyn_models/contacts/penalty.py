@@ -230,7 +230,9 @@ class SpringsRun(PenaltyRun):
         if self.wall.damping and not self.wall.stop:
             at, wall_y = self.beam.vertical, self.beam.shape.wall_y
             share = covered(q[at] + step * v[at] - wall_y, self.wall.lengths)
-            damping = self.wall.damping * share[self.nodes]
+            # the pressure of what lands begins at the rim with a jump, that of what leaves ends there with none
+            leaves = v[at][self.nodes] < 0.0
+            damping = self.wall.damping * np.where(leaves, self.wall.weights, share[self.nodes])
             for k in np.flatnonzero(damping != self.damping):
                 self.beam.mbs.SetObjectParameter(self.connectors[k], "contactDamping", float(damping[k]))
             self.damping = damping
