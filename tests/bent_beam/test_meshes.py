@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bent_beam.meshes import GradedMesh, NodesMesh, ScaleFreeMesh, SquareMesh, UniformMesh, mirrored
+from bent_beam.meshes import GradedMesh, NodesMesh, ScaleFreeMesh, SquareMesh, UniformMesh, mirrored, snapped
 
 
 @given(
@@ -66,3 +66,11 @@ def test_impossible_meshes_are_refused():
     for make, *values in kinds:
         with pytest.raises(ValueError, match="mesh"):
             make(*values)
+
+
+def test_an_edge_between_two_nodes_takes_the_same_one_in_every_unit():
+    for unit in (1.0, 1e-3, 1e3, 0.3048, 7.0):
+        nodes = unit * np.arange(11) * 0.1
+        assert snapped(nodes, (unit * 0.45, unit * 0.85)) / unit == pytest.approx(
+            [0.0, 0.1, 0.2, 0.3, 0.45, 0.5, 0.6, 0.7, 0.85, 0.9, 1.0]
+        )

@@ -38,6 +38,7 @@ def test_rows_are_the_numbers_of_bounce_and_are_kept(case, tmp_path, monkeypatch
     monkeypatch.setattr(HermiteFE, "simulate", lambda *a, **k: pytest.fail("it ran"))
     again = sweep(case, {"impact.velocity": [1.0, 2.0], "beam.damping_ratio": "0.01,0.02"})
     assert again.kept == 4 and json.loads(json.dumps(again.to_dict()["rows"])) == found["rows"]
+    assert again.units == {"impact.velocity": "m/s", "beam.damping_ratio": ""}
     lines = str(again).splitlines()
     assert len([line for line in lines if line.split()[:2] in (["1", "0.01"], ["2", "0.02"])]) == 2 and "±" in lines[2]
     assert again.table["restitution"].tolist() == [one["restitution"]["value"] for one in found["rows"]]

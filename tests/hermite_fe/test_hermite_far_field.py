@@ -1,5 +1,7 @@
 """What leaves does not come back: reflection of wave packets, and indifference to a larger far field."""
 
+import re
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -13,6 +15,7 @@ from hermite_fe.far_fields import FarField, GridViscosity, Sponge
 from hermite_fe.integrators import NonsmoothGeneralizedAlpha
 from hermite_fe.run import integrate
 from hermite_fe.system import ContactRows, System
+from hermite_fe.warnings_of_run import end_warnings
 
 Array = NDArray[np.float64]
 UNDAMPED = GridViscosity(viscosity=0.0)
@@ -77,3 +80,11 @@ def test_far_fields_take_no_momentum_and_leave_rigid_motion_alone() -> None:
         bands = sum(part for _, part in far_field.dampings(beam, impact))
         rigid = beam.interpolate(np.ones(beam.nodes.size), np.zeros(beam.nodes.size))
         assert np.abs(product(bands, rigid)).max() < 1e-12 * np.abs(bands).max()
+
+
+def test_waves_are_back_from_the_ends_at_the_same_time_however_long_the_run() -> None:
+    impact, nodes = Impact.whole_beam(0.5), np.linspace(0.0, 1.0, 51)
+    said = [end_warnings(impact, end, nodes, UNDAMPED) for end in (0.03, 0.1, 0.4)]
+    times = [re.findall(r"be back at the contact from about t = (\S+) s", one[-1])[0] for one in said]
+    assert len(set(times)) == 1 and 0.0 < float(times[0]) < 0.03
+    assert end_warnings(impact, 0.5 * float(times[0]), nodes, UNDAMPED) == []

@@ -2,6 +2,8 @@
 
 import dataclasses
 import math
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -9,7 +11,7 @@ from histories import history_of, pushed_until, rod
 
 from bent_beam.as_json import json_text
 from bent_beam.cases import load_case
-from bent_beam.free_flight import LOWEST_PERIOD, Separation, cannot_return, has_left
+from bent_beam.free_flight import LOWEST_PERIOD, Separation, cannot_return, has_left, may_return
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.measure.whole_impact import hits, peak_times, pushes, whole_impact
@@ -236,6 +238,16 @@ def test_a_beam_that_has_left_does_not_return_and_one_that_swings_as_wide_as_it_
         assert not cannot_return(impact, x, flat + 0.99 * reach, up, rigid + 0.1)
         assert not cannot_return(impact, x, flat + 1.01 * reach, -up, rigid + 0.1)
         assert not cannot_return(impact.replace(acceleration=1.0), x, flat + 9.0, up, rigid)
+    assert not may_return(history) and may_return(history.until(0.7))
+
+
+def test_tension_brings_a_hinged_beam_back_and_a_load_off_the_wall_brings_none_back() -> None:
+    pendulum = Impact.whole_beam(1.0).replace(
+        curvature=0.0, left_end="hinged", wall_from=0.5, wall_to=0.5, wall_stiffness=9.0
+    )
+    impacts = (pendulum.replace(axial_force=1.0), pendulum, Impact.whole_beam(0.5).replace(acceleration=-0.1))
+    stands: list[Any] = [SimpleNamespace(impact=impact) for impact in impacts]
+    assert [may_return(one) for one in stands] == [True, False, False]
 
 
 def test_a_beam_that_turns_comes_back_with_the_end_that_turns_to_the_wall_faster_than_it_leaves() -> None:

@@ -229,6 +229,15 @@ def test_a_drop_at_an_angle_is_under_standard_gravity_on_the_page_too() -> None:
     assert evaluated("given.map((text) => Beam.impact(Case.read(text)).velocity)", [text])[0] == pytest.approx(expected)
 
 
+@needs_node
+def test_gravity_that_draws_away_from_the_wall_is_a_load_of_the_page() -> None:
+    text = BAR.replace("velocity = 1.0", "velocity = 1.0\ngravity = 9.81\ngravity_angle = 100.0")
+    expected = case_from_tables(tomllib.loads(text)).impact.net_load
+    read = """given.map((text) => { const i = Case.read(text), b = Beam.impact(i);
+        return [Beam.complaints(i).length, b.acceleration * b.mass * b.length]; })"""
+    assert evaluated(read, [text])[0] == [0, pytest.approx(expected)]
+
+
 def page_and_bounce(inputs: list[dict[str, Any]], share: float = 1.0) -> tuple[int, list[str]]:
     """How many numbers of whole impacts were compared, and those that differ by more than this share of both bars."""
     found = evaluated(

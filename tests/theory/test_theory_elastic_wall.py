@@ -68,6 +68,34 @@ def test_after_a_damped_wall_the_rigid_ones_law_comes_back_with_a_longer_zone() 
     assert offset == pytest.approx(math.sqrt(2.0), abs=0.15)
 
 
+@pytest.mark.parametrize("shear", [0.0, 0.7, 3.0])
+def test_the_rim_is_as_far_ahead_of_the_force_as_on_a_beam_on_springs(shear) -> None:
+    """EI w⁗ − (EI k/S) w″ + k w = 0 behind the rim, where w = 0: the force is Σ 1/r behind it, of a rigid wall l_s."""
+    roots = np.roots([1.0, 0.0, -(shear**2), 0.0, 1.0])
+    behind = float((1.0 / roots[roots.real > 0.0]).sum().real)
+    assert wall_prediction.zone_offset(0.5, shear) == pytest.approx(behind - shear)
+    pipe = Impact(1.2e6, 29.0, 90.0, 0.002, 0.5, wall_stiffness=2e8)
+    soft, rigid = (predict(one, 0.02).times[0] for one in (pipe, pipe.replace(wall_stiffness=None)))
+    longer = soft.half_contact_length - rigid.half_contact_length
+    assert longer == pytest.approx(math.sqrt(2.0) * (1.2e6 / 2e8) ** 0.25)
+    assert (soft.reaction, soft.impulse) == (rigid.reaction, rigid.impulse)
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_the_largest_force_is_given_up_where_loads_change_a_rigid_wall_s_by_2_percent(sign) -> None:
+    beam = Impact(1.0, 1.0, 400.0, 0.005, 0.01, wall_stiffness=1.0)
+    at = predict(beam).wall.peak_force_time
+
+    def change(load: float) -> float:
+        one, other = (predict(beam.replace(wall_stiffness=None, acceleration=a), at).times[0] for a in (load, 0.0))
+        return abs(one.reaction / other.reaction - 1.0)
+
+    load = 1e-6 * sign
+    load *= 0.02 / change(load)  # linear in small loads
+    said = [predict(beam.replace(acceleration=share * load)).wall.spoiled_by for share in (0.9, 1.1)]
+    assert said == [None, "first-order correction"]
+
+
 @pytest.mark.parametrize(("ratio", "damping", "end"), [(1.0, 0.0, 60.0), (20.0, 0.0, 120.0), (0.7, 0.25, 100.0)])
 def test_a_wall_counts_as_rigid_once_impulse_and_force_are_within_2_percent(ratio, damping, end) -> None:
     """And not much later: not after twice the time of one point, whose force comes back last at κ/ν = 1."""
