@@ -155,7 +155,7 @@ def _may_return(made: Runs, restitution: Number) -> float:
 
 def follow_hits(impact: Impact, method: Method, count: int, *, first: ImpactHistory) -> list[Hit]:
     """The first ``count`` hits of a beam on its wall by one run, fewer where it is not back within :data:`LONGEST` T*
-    or comes to rest: a hit that is not over within :data:`RESTS` periods of the lowest mode.
+    or comes to rest: a hit that is not over within :data:`RESTS` periods of the lowest mode is none.
 
     first : the run that a first hit has been read from: the first row is its own.
     Raises ``ValueError`` for what the method refuses, and between two walls.
@@ -170,6 +170,6 @@ def follow_hits(impact: Impact, method: Method, count: int, *, first: ImpactHist
         rests = len(over) < len(found) and end - found[-1].begin >= RESTS * period
         gone = over and fall <= 0.0 and not may_return(run)
         if len(over) >= count or rests or end >= longest or gone:
-            return [*hits(first)[:1], *over[1:count]]
+            return [*hits(first)[:1], *over[1:count]] if over else []
         flight = 2.0 * max(-over[-1].after, 0.0) / fall if over and fall > 0.0 else 0.0
         end = min(max(2.0 * end, end + flight + 2.0 * period), longest)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from bent_beam import Impact
-from bent_beam.hysteresis import branches_of, first_mode
+from bent_beam.hysteresis import LEAST_LOSS, branches_of, converges, first_mode
 
 
 def lossy(loss: float, times: float = 1.0) -> Impact:
@@ -59,3 +59,9 @@ def test_the_range_of_the_loss_reaches_the_first_instants_of_a_fast_impact() -> 
     reached = [branches_of(impact).highest for impact in (slow, fast)]
     assert reached == pytest.approx([1e6 * first_mode(slow), 1e4 / (2.0 * math.pi * fast.time_scale)])
     assert reached[1] > 10.0 * reached[0]
+
+
+def test_a_whole_impact_has_numbers_with_damping_or_a_loss_of_some_size() -> None:
+    damped = Impact.whole_beam(2.0, relative_damping=1e-6)
+    beams = (Impact.whole_beam(2.0), damped, lossy(0.9 * LEAST_LOSS), lossy(LEAST_LOSS))
+    assert [converges(beam) for beam in beams] == [False, True, False, True]

@@ -60,6 +60,10 @@ def test_a_mesh_refined_by_two_has_elements_of_half_the_length_everywhere(mesh):
         assert np.isin(nodes, finer).all() and finer.size == 2 * nodes.size - 1
 
 
+def test_a_beam_shorter_than_an_element_has_two_elements_of_a_graded_mesh():
+    assert GradedMesh(1.0, 1.1).nodes(0.4) == pytest.approx([0.0, 0.2, 0.4], rel=0.1)
+
+
 def test_impossible_meshes_are_refused():
     kinds = [(UniformMesh, 0.0), (GradedMesh, 1.0, 0.9), (SquareMesh, 0.1, -1.0), (UniformMesh(1e-9).nodes, 1.0)]
     kinds += [(NodesMesh, places) for places in ((0.0, 1.0), (0.0, 2.0, 1.0), (0.5, 1.0, 2.0))]

@@ -16,7 +16,8 @@ from bent_beam.cases import Case, load_case
 from bent_beam.measure.force_map import force_map
 from comparison import bounce, predict
 from comparison.bounced import scales
-from comparison.compare import compare_histories, rerun_history
+from comparison.compare import _apart, compare_histories, rerun_history
+from comparison.readable import unit_for
 from comparison.simulating import simulate_case
 from comparison.texts import run_text
 from self_similar_fe import SelfSimilarFE
@@ -163,3 +164,21 @@ def test_a_wall_that_gives_way_and_is_not_yet_touched_has_no_place_of_its_force(
     said = run_text(simulate_case(case, "hermite", until=3e-4, error_bars="drift", save=20).to_dict())
     assert "largest force  " in said and "nan" not in said.lower() and "None" not in said
     assert "0.3 ms after it passes its rest position" in said and "has not reached its wall, 0.0002 m away" in said
+
+
+def test_settings_that_two_runs_share_are_no_difference() -> None:
+    assert _apart({"mesh": 1, "steps": 2, "save": None}, {"mesh": 1, "steps": 3, "theta": 1.0}) == {
+        "steps": [2, 3],
+        "theta": [None, 1.0],
+    }
+
+
+@pytest.mark.parametrize(
+    ("unit", "value", "written"),
+    [
+        ("m", 5e-3, (1e3, "mm")), ("m", 0.05, (1.0, "m")), ("N/m", 500.0, (1e-3, "kN/m")), ("N", 50.0, (1.0, "N")),
+        ("N s", 500.0, (1.0, "N s")), ("Pa", 1.0, (1e-6, "MPa")), ("s", 1.0, (1e3, "ms")), ("m/s", 1e-3, (1.0, "m/s")),
+    ],
+)  # fmt: skip
+def test_a_number_is_written_in_the_unit_that_suits_its_size(unit: str, value: float, written: Any) -> None:
+    assert unit_for(unit, [None, -value]) == written
