@@ -11,7 +11,8 @@ const Motion = (() => {
     const { frames } = run, next = frames.findIndex((one) => one.t > t), i = next < 1 ? frames.length - 1 : next;
     const a = frames[i - 1], b = frames[i], share = Math.min(1, (t - a.t) / (b.t - a.t));
     const between = (name) => (j) => a[name][j] + share * (b[name][j] - a[name][j]);
-    return { ...(share > 0 ? b : a), u: between("u"), moment: between("moment"), impulse: a.impulse + share * (b.impulse - a.impulse) };
+    const impulse = a.impulse + share * (b.impulse - a.impulse);
+    return { ...(share > 0 ? b : a), u: between("u"), moment: between("moment"), impulse };
   }
 
   /** The canvas as large as the screen shows it: its pen, width and height. */

@@ -45,7 +45,8 @@ const Words = (() => {
     const wide = (one, least = 0) => one.bar > DOUBTS.wide * Math.max(Math.abs(one.value), least);
     const wides = whole && problem.eta && (wide(moment) || wide(restitution, DOUBTS.least_restitution));
     const back = restitution.value !== null && problem.load + problem.pull > 0;
-    const pull = b.tension * b.length ** 2 / (Math.PI ** 2 * b.stiffness), bends = pull > 0 ? "straightens it" : "bends it further";
+    const pull = b.tension * b.length ** 2 / (Math.PI ** 2 * b.stiffness); // over the buckling load
+    const bends = pull > 0 ? "straightens it" : "bends it further";
     const radius = Math.sqrt(b.turning / b.mass); // of gyration, of a beam that shears
     const said = [
       [!problem.eta, "Without damping the outcome is irregular and does not converge: a band is given."],
