@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from bent_beam_programs.open_benchmark.problem_command import problem_ids
-from comparison.command_line.options import Json, Quiet, complete, emit, progress
+from comparison.command_line.options import Json, Quiet, complete, emit, progress, stated
 
 
 def solver_names(incomplete: str) -> list[str]:
@@ -19,6 +19,7 @@ def solver_names(incomplete: str) -> list[str]:
 
 
 def benchmark(
+    context: typer.Context,
     solver: Annotated[
         list[str] | None, typer.Option(help="A shipped adapter; repeatable (all).", autocompletion=solver_names)
     ] = None,
@@ -63,8 +64,8 @@ def benchmark(
     from comparison.store import check_writable
 
     if install:
-        if solver or problem or adapter or result or seed is not None:
-            raise InputError("--install runs nothing: leave --solver, --problem, --adapter, --result and --seed out")
+        if idle := stated(context, "solver", "problem", "adapter", "result", "seed", "out", "seconds", "quiet"):
+            raise InputError(f"--install runs nothing: leave {idle[0]} out")
         lines = [install_environment(one) for one in chosen_adapters(install)]
         emit({"installed": lines}, as_json, lambda: "\n".join(lines))
         return 0

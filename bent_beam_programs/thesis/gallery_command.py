@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from comparison.command_line.options import Jobs, Json, Quiet, complete, emit, printable, progress
+from comparison.command_line.options import Jobs, Json, Quiet, complete, emit, printable, progress, stated
 
 
 def item_names(incomplete: str) -> list[str]:
@@ -18,6 +18,7 @@ def item_names(incomplete: str) -> list[str]:
 
 
 def gallery(
+    context: typer.Context,
     ids: Annotated[
         list[str] | None,
         typer.Argument(help="Figures and tables by number, e.g. fig-3.29. Default: all.", autocompletion=item_names),
@@ -39,8 +40,9 @@ def gallery(
     from bent_beam_programs.thesis.gallery import ITEMS, draw_all, listing
     from comparison.store import check_writable
 
-    if list_only and ids:
-        raise InputError(f"--list lists all: leave {ids[0]!r} out")
+    idle = [*(repr(one) for one in ids or ()), *stated(context, "out", "format", "jobs", "quiet")]
+    if list_only and idle:
+        raise InputError(f"--list lists all and draws nothing: leave {idle[0]} out")
     if list_only:
         entries = listing()
         emit(entries, as_json, lambda: "\n".join(f"{e['id']:>10}  {e['title']}" for e in entries))

@@ -18,6 +18,7 @@ def study_names(incomplete: str) -> list[str]:
 
 
 def study(
+    context: typer.Context,
     name: Annotated[
         str, typer.Argument(help="Name of the study (`bentbeam study list` shows them).", autocompletion=study_names)
     ],
@@ -51,7 +52,7 @@ def study(
     from comparison.store import check_writable
 
     if name == "list":
-        if case or path or assignments or methods or refine or out:
+        if options.stated(context, "case", "path", "assignments", "methods", "refine", "out", "jobs", "quiet"):
             raise InputError("study list takes --json alone")
         titles = [{"name": n, "title": s.title} for n, s in STUDIES.items()]
         options.emit(titles, as_json, lambda: "\n".join(f"{one['name']:>16}  {one['title']}" for one in titles))

@@ -113,6 +113,12 @@ def factors(refine: str | None) -> tuple[float, ...]:
     return tuple(positive("refine", factor) for factor in found)
 
 
+def stated(context: typer.Context, *names: str) -> list[str]:
+    """Those of the options ``names`` that stand on the command line, as they are typed."""
+    sources = {name: context.get_parameter_source(name) for name in names}
+    return [f"--{name}" for name, source in sources.items() if source is not None and source.name == "COMMANDLINE"]
+
+
 def emit(document: Any, as_json: bool, text: Callable[[], str]) -> None:
     """Print ``document`` as one line of JSON, numbers finite and missing values null, or as ``text``."""
     if as_json:

@@ -102,8 +102,11 @@ def test_a_match_whose_rows_are_all_refused_is_bad_input_and_still_a_document(ca
         ),
         (["settings", "--json", "--markdown"], "--markdown writes the whole page"),
         (["study", "list", K10], "study list takes --json alone"),
+        (["study", "list", "--jobs", "2"], "study list takes --json alone"),
         (["study", "contact-point", K10, "--set", "mesh.kind=uniform", "--set", "mesh.element_length=1"], "their own"),
-        (["gallery", "--list", "fig-3.9"], "--list lists all"),
+        (["gallery", "--list", "fig-3.9"], "--list lists all and draws nothing: leave 'fig-3.9' out"),
+        (["gallery", "--list", "--jobs", "1"], "leave --jobs out"),
+        (["benchmark", "--install", "scikit-fem", "--seconds", "9"], "--install runs nothing: leave --seconds out"),
         (["benchmark", "--install", "scikit-fem", "--seed", "1"], "--install runs nothing"),
     ],
 )
