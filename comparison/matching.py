@@ -6,6 +6,7 @@ Nothing here knows a path. A method simulates; its history is reduced to moments
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from functools import partial
@@ -168,6 +169,7 @@ def answer(question: MatchQuestion, store: RunStore, limit: float | None = None)
         warnings.append(f"wide error bar: λ₀ = {leading.lambda0}, r₀ = {leading.r0}")
     if estimate is not None and estimate.r1.spread > WIDE_FIRST * max(abs(estimate.r1.known), 1.0):
         warnings.append(f"wide error bar: r₁ = {estimate.r1}")
+    warnings += _of_rigid_wall(question)
     readings = [r.reading for r in fine.runs]
     holds = [reading["hold"] for reading in readings if reading["hold"]]
     return MatchRow(
@@ -182,6 +184,20 @@ def answer(question: MatchQuestion, store: RunStore, limit: float | None = None)
         epsilons=list(estimate.epsilons) if estimate else [],
         warnings=sorted(set(warnings)),
     )
+
+
+def _of_rigid_wall(question: MatchQuestion) -> list[str]:
+    """A warning where the wall gives way and the run ends before the theory, a rigid wall's, holds on it."""
+    from theory import contact_parameters
+    from theory.wall_prediction import on_elastic_wall
+
+    wall = on_elastic_wall(question.bare, contact_parameters(question.kappa_over_nu))
+    if wall is None or wall.rigid_from <= question.duration:
+        return []
+    known = math.isfinite(wall.rigid_from)
+    since = f"from {wall.rigid_from:.3g} t* on" if known else "at a time that is not known"
+    end = f"the run ends at {question.duration:g} t*"
+    return [f"λ₀ and r₀ are held against a rigid wall; this one comes within 2 % of it {since} ({end})"]
 
 
 def _peak_force(question: MatchQuestion, run: Run, others: Sequence[Run]) -> Number:

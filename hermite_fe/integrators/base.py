@@ -92,8 +92,8 @@ class Integrator(Part, ABC):
         grown = math.log(end_time / switch) / math.log1p(growth) if switch < end_time else 0.0
         if not even + grown <= MAXIMUM_STEPS:
             raise InputError(
-                f"integrator.time_step is too small, or growth: {even + grown:.3g} steps, {MAXIMUM_STEPS:.2g} are the "
-                f"most (got {step!r} and {growth!r})"
+                f"a run to t = {end_time:.4g} s takes {even + grown:.3g} steps, and {MAXIMUM_STEPS:.2g} are the most: give "
+                f"run.end_time earlier, or integrator.time_step longer (it is {step:.4g} s, growth {growth:g})"
             )
         times = np.linspace(0.0, switch, max(1, math.ceil(even * (1.0 - 1e-12))) + 1)
         if switch < end_time:

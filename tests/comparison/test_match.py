@@ -198,6 +198,13 @@ def test_a_wall_that_gives_way_has_its_largest_force_in_the_row():
     assert row.peak_force.theory == pytest.approx(3.155, rel=1e-3)
 
 
+@pytest.mark.parametrize(("stiffness", "said"), [(1e5, "from 0.632 t* on (the run ends at 0.1 t*)"), (1e7, "")])
+def test_a_run_too_short_for_the_rigid_walls_theory_says_from_when_on_that_holds(stiffness, said):
+    """A zone with c = √(kμ) comes within 2 % of a rigid wall's after 200 √(μ/k)."""
+    row = answer(MatchQuestion(HermiteFE(refine=0.5), 0.5, error_bars="drift", wall=(stiffness, 0.5)), KEEP)
+    assert [text.partition("of it ")[2] for text in row.warnings if "rigid wall" in text] == [said] * bool(said)
+
+
 LISTS = CASES / "methods"
 
 
