@@ -25,8 +25,6 @@ from bent_beam.measure.balance import Balance, balance_of
 from bent_beam.measure.limits import ELSEWHERE, LIMITS
 from bent_beam.method import method_from_tables, simulate_to_separation
 
-__all__ = ["judged"]
-
 PATHS = ("hermite", "self_similar", "exudyn")
 
 

@@ -41,8 +41,6 @@ from comparison.simulating import simulate_case
 from comparison.whole_numbers import NUMBERS
 from comparison.workers import run_all
 
-__all__ = ["draw", "printed", "references"]
-
 STRATA = ("rigid", "wall", "support", "loads", "light")
 AT_A_TIME = ("half_contact_length", "impulse", "peak_moment")
 OF_THE_WHOLE = ("restitution", "impulse", "last_contact", "peak_moment", "peak_force")

@@ -37,8 +37,6 @@ from bent_beam.stored import write
 from comparison.matching import match
 from comparison.rows import First, MatchQuestion, MatchRow
 
-__all__ = ["Coverage", "Draw", "coverage", "draw", "log_uniform", "options", "write_misses"]
-
 LEAST_SHARE = 0.94  # of the numbers within their bars; the bars are meant for 95 %
 MOST_BARS = 2.0  # that a number may be off
 PACKAGES = ("bent_beam", "hermite_fe", "self_similar_fe", "exudyn_models")

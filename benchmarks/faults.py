@@ -27,8 +27,6 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-__all__ = ["faults_of", "seen_by"]
-
 ROOT = Path(__file__).parents[1]
 PATHS = ["theory", "hermite_fe", "self_similar_fe", "exudyn_models"]
 # room → the rooms of tests/ one floor up

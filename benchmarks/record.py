@@ -11,8 +11,6 @@ from typing import Any
 from bent_beam.files import write_atomically
 from bent_beam.versions import processor, today, versions
 
-__all__ = ["RESULTS", "Row", "keep"]
-
 RESULTS = Path(__file__).parent / "results"
 
 

@@ -21,8 +21,6 @@ from hermite_fe.integrators import Integrator, MoreauJean
 from hermite_fe.model import BeamModel, beam_model
 from hermite_fe.run import Stepper
 
-__all__ = ["plain_step", "prepared_step"]
-
 STEP = 1e-3  # in units of t*, at κ/ν = 0.1
 HALF_LENGTH = 100.0  # l*
 END = 1.0  # t*, of the impact

@@ -20,8 +20,6 @@ from theory import contact_parameters
 from theory.elastic_wall import peak_force, wall_history
 from theory.validity import TOLERANCE
 
-__all__ = ["change_by_damping", "settled"]
-
 TENTH = 0.05  # of a time: what a reaction is a mean over, either way
 QUIET = GridViscosity(viscosity=0.0)
 

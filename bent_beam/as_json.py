@@ -5,8 +5,6 @@ from __future__ import annotations
 import json
 from typing import Any
 
-__all__ = ["json_text", "plain"]
-
 
 def json_text(value: Any, indent: int | None = None) -> str:
     """``value`` as JSON; NaN and infinities become null."""

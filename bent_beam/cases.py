@@ -30,9 +30,6 @@ from bent_beam.tables import TABLES, WAYS, BeamTable, ImpactTable, RunTable, Wal
 if TYPE_CHECKING:
     from bent_beam.method import Method
 
-__all__ = ["EXAMPLES", "Case", "case_from_tables", "holds", "lay_over", "lay_values", "load_case", "read_toml",
-           "value_of"]  # fmt: skip
-
 EXAMPLES = Path(__file__).with_name("examples")
 """The folder of the example cases, and of lists of methods below it: `cases/` of the checkout."""
 

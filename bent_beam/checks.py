@@ -7,10 +7,6 @@ from collections.abc import Collection
 
 from bent_beam.errors import InputError
 
-__all__ = [
-    "affordable", "at_least", "between", "finite", "non_negative", "one_of", "positive", "shortened", "whole",
-]  # fmt: skip
-
 LARGEST_COUNT = 2**53  # the last integer that a float tells from its neighbours
 MOST_INSTANTS = 1_000_000  # that a run may save
 LARGEST_RECORD = 60_000_000  # values a field: half a gigabyte

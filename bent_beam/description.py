@@ -15,8 +15,6 @@ from bent_beam.loads import ENDS
 from bent_beam.section import Section
 from bent_beam.tables import AS_THEY_ARE, MODELS, WAYS, BeamTable, WallTable, _ImpactTable
 
-__all__ = ["impact_of"]
-
 TIMOSHENKO, EULER_BERNOULLI = MODELS
 GRAVITY = 9.80665  # m/s², standard (3rd General Conference on Weights and Measures, 1901)
 

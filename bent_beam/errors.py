@@ -6,8 +6,6 @@ import difflib
 from collections.abc import Iterable
 from typing import Any
 
-__all__ = ["ANY_FAILURE", "InputError", "SimulationError", "TimeLimitError", "nearest", "unknown_key"]
-
 ANY_FAILURE = (Exception, SystemExit)
 """What a row of a sweep may end with, whoever wrote its method: only an interrupt ends the sweep."""
 

@@ -18,10 +18,6 @@ from typing import Annotated, Any, ClassVar, Protocol, TypeVar, Union, get_args,
 from bent_beam import checks
 from bent_beam.errors import InputError, nearest, unknown_key
 
-__all__ = [
-    "Declared", "Part", "Quantity", "declared", "describe", "key_of", "made_from", "part_from_table", "part_or_auto",
-]  # fmt: skip
-
 T = TypeVar("T")
 
 

@@ -29,11 +29,6 @@ from bent_beam.guarded import try_first
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = [
-    "ENERGIES", "LOSSES", "UNITS", "check_contents", "check_variables", "read_dataset", "write_atomically",
-    "write_dataset",
-]  # fmt: skip
-
 LOSSES = tuple(f"loss_{cause}" for cause in ("impact", "algorithmic", "viscous", "material", "absorbed", "wall"))
 ENERGIES = ("kinetic_energy", "strain_energy", "contact_energy", "work_of_loads", *LOSSES)
 REQUIRED = ("time", "x", "contact_x", "gap", "impulse", "total_impulse", "kinetic_energy", "strain_energy")

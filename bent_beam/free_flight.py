@@ -23,9 +23,6 @@ from bent_beam.hysteresis import FIRST_MODE, branches_of
 from bent_beam.impact import Impact
 from bent_beam.loads import loads_of
 
-__all__ = ["LOWEST_PERIOD", "Separation", "acting", "bears_free_flight", "cannot_return", "has_left",
-           "may_return"]  # fmt: skip
-
 Array = NDArray[np.float64]
 
 #: Period of the free–free beam's lowest mode over T*: 2π/(4.730/2)².

@@ -15,8 +15,6 @@ import threading
 from collections.abc import Callable
 from pathlib import Path
 
-__all__ = ["try_first"]
-
 LIMIT = 30  # s; the largest history takes three
 CHILD = "import json, sys; sys.path[:] = json.loads(sys.argv[1]); "
 CHILD += "from bent_beam.files import examine; from bent_beam.guarded import serve; serve(examine)"

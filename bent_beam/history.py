@@ -17,15 +17,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from bent_beam.files import ENERGIES, LOSSES, UNITS, check_contents, check_variables, read_dataset, write_dataset
+from bent_beam.files import ENERGIES, UNITS, check_contents, check_variables, read_dataset, write_dataset
 from bent_beam.impact import Impact
 from bent_beam.section import Section
 from bent_beam.versions import versions
 
 if TYPE_CHECKING:
     import xarray as xr
-
-__all__ = ["LOSSES", "REFLECTED", "ImpactHistory", "end_curvatures"]
 
 Array = NDArray[np.float64]
 

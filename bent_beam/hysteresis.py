@@ -24,8 +24,6 @@ from numpy.typing import NDArray
 from bent_beam.errors import InputError
 from bent_beam.scales import Scales
 
-__all__ = ["FIRST_MODE", "Branches", "branches_of", "check_loss", "converges", "first_mode"]
-
 Array = NDArray[np.float64]
 
 FIRST_MODE = 4.730040744862704  # cos β cosh β = 1, of a free–free beam as of a clamped one

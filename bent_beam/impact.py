@@ -24,8 +24,6 @@ from bent_beam.hysteresis import check_loss
 from bent_beam.loads import loads_of
 from bent_beam.scales import Scales
 
-__all__ = ["Impact"]
-
 ENDLESS = 1e30  # time, and change of the free motion by the loads, in the problem's own units
 WAVES_FELT = 0.005  # T*: until then waves from the ends change the impulse by 1 % at most, of flat contacts by more
 BEFORE_WAVES_RETURN = 0.01  # T*: the earliest that they change the impulse by 2 %

@@ -55,11 +55,6 @@ from numpy.typing import NDArray
 
 from bent_beam.fields import Part, Quantity, declared
 
-__all__ = [
-    "ENDS", "Feature", "FreeMotion", "Load", "WallScales", "beyond_first_order", "loads_of", "unmodelled",
-    "wall_scales",
-]  # fmt: skip
-
 Array = NDArray[np.float64]
 Powers = tuple[int, int]
 UNSHEARED = ': [beam] model = "euler_bernoulli" leaves shear out'

@@ -30,11 +30,6 @@ from bent_beam.free_flight import has_left
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 
-__all__ = [
-    "GROUP", "Method", "Save", "chosen_for", "for_whole_beam", "made_of", "method_from_tables", "method_type", "paths",
-    "refined", "separation_times", "settings_of", "simulate_to_separation", "simulated",
-]  # fmt: skip
-
 GROUP = "bentbeam.methods"
 Save = int | Sequence[float] | NDArray[np.float64]
 M = TypeVar("M")

@@ -26,8 +26,6 @@ from numpy.typing import NDArray
 from bent_beam.errors import InputError
 from bent_beam.impact import Impact
 
-__all__ = ["lowest_frequency", "lowest_mode"]
-
 Array = NDArray[np.float64]
 
 DEGREE = 80  # of a string whose ends bend over 1/100 of its half length the mode is right to 1e-8

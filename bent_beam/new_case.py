@@ -8,8 +8,6 @@ from bent_beam.cases import EXAMPLES
 from bent_beam.checks import shortened
 from bent_beam.errors import InputError, nearest
 
-__all__ = ["example", "examples", "new_case"]
-
 SECTION_LINES = {
     "pipe": """outer_diameter = 0.127      # m
 wall_thickness = 0.00919    # m (or inner_diameter)

@@ -7,8 +7,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["force_and_stress"]
-
 CUT_OFF = 0.01  # of the run
 
 

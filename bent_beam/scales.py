@@ -13,8 +13,6 @@ from typing import Annotated
 from bent_beam.fields import Part, Quantity
 from bent_beam.loads import ENDS, SIMULATED, UNSHEARED, Feature, FreeMotion, Load, loads_of
 
-__all__ = ["Scales"]
-
 
 @dataclass(frozen=True)
 class Scales(Part):

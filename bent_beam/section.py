@@ -17,8 +17,6 @@ from typing import Annotated, ClassVar
 from bent_beam.errors import InputError
 from bent_beam.fields import Part, Quantity
 
-__all__ = ["SECTIONS", "General", "Pipe", "Rectangle", "RoundBar", "Section"]
-
 
 @dataclass(frozen=True, kw_only=True)
 class Section(Part, ABC):

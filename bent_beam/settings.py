@@ -18,8 +18,6 @@ from bent_beam.method import method_type, paths
 from bent_beam.section import SECTIONS
 from bent_beam.tables import TABLES
 
-__all__ = ["Setting", "about", "settings"]
-
 
 @dataclass(frozen=True)
 class Setting:

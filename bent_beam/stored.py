@@ -21,8 +21,6 @@ from bent_beam.as_json import json_text, plain
 from bent_beam.files import write_atomically
 from bent_beam.versions import stamp, today
 
-__all__ = ["confirm", "digest_of", "is_stale", "read", "write"]
-
 ROOT = Path(__file__).resolve().parent.parent
 
 

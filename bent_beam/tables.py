@@ -15,8 +15,6 @@ from bent_beam.fields import Part, Quantity, declared
 from bent_beam.impact import Impact
 from bent_beam.loads import loads_of
 
-__all__ = ["MODELS", "TABLES", "WAYS", "BeamTable", "ImpactTable", "RunTable", "WallTable", "in_keys"]
-
 MODELS = ("timoshenko", "euler_bernoulli")
 
 

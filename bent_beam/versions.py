@@ -10,8 +10,6 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-__all__ = ["processor", "stamp", "today", "versions"]
-
 
 def versions() -> dict[str, str]:
     """Versions of what a result depends on, by distribution name."""

@@ -20,8 +20,6 @@ from bent_beam.method import Method, method_type
 from bent_beam.versions import versions
 from comparison.readable import shown, text_table, unit_for
 
-__all__ = ["compare_histories", "comparison_text", "rerun_history", "rerun_text"]
-
 CURVES = ("total_impulse", "kinetic_energy", "strain_energy")
 
 

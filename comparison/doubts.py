@@ -7,17 +7,13 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from bent_beam.history import LOSSES, ImpactHistory
+from bent_beam.files import LOSSES
+from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.loads import unmodelled
 from bent_beam.measure.numbers import MISSING
 from bent_beam.section import Section
 from comparison.whole_numbers import WHOLE
-
-__all__ = [
-    "comparable", "doubts", "energy_at_end", "energy_residual", "loss_warnings", "numerical_loss",
-    "wide_bars",
-]  # fmt: skip
 
 Energies = Mapping[str, float | None]
 

@@ -36,8 +36,6 @@ from comparison.store import RunStore
 from comparison.texts import prediction_text
 from theory import Prediction, predict
 
-__all__ = ["COMPARED", "PredictedCase", "instant_numbers", "instants_reading", "numbers_at", "predict_case", "runs_to"]
-
 PATH = "hermite"
 COMPARED = ("half_contact_length", "reaction", "impulse", "peak_moment", "peak_stress")
 """What theory and simulation both say at a time."""

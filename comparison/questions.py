@@ -29,8 +29,6 @@ from bent_beam.impact import BEFORE_WAVES_RETURN, Impact
 from bent_beam.measure.instant import BEYOND
 from bent_beam.method import Method, for_whole_beam, refined, simulate_to_separation, simulated
 
-__all__ = ["ERROR_BARS", "Progress", "Question"]
-
 Progress = Callable[[float], None]
 """Called with the finished fraction."""
 EARLY = 0.003  # T*

@@ -15,11 +15,6 @@ from bent_beam.files import write_atomically
 from bent_beam.measure.numbers import Band, Number
 from comparison.whole_numbers import HIT
 
-__all__ = [
-    "BEAMS", "BEFORE", "LIMITS", "REGIMES", "beam_line", "csv_text", "flat", "hits_table", "in_unit", "largest_of",
-    "milliseconds", "number_from", "readable", "shown", "text_table", "unit_for", "write_answer",
-]  # fmt: skip
-
 RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 SMALL, LARGE = 1e-3, 1e5  # beyond them a power of ten
 WIDEST = 400  # characters of a table

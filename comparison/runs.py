@@ -22,8 +22,6 @@ from comparison.questions import SHORT, Progress, Question
 from comparison.store import RunStore, code_of, source_of
 from comparison.workers import run_all
 
-__all__ = ["Run", "Runs", "bands_of", "kept", "numbers_of", "runs_of", "unseen_of_moment"]
-
 LEAST = 1e-4  # of a number: its least bar; beams drawn at random were off by as much where companions agreed better
 LIGHT = 3e-4  # η/T* below which a beam has hardly any damping …
 LEAST_LIGHT = 1e-3  # … and its late numbers this least bar, for the same reason

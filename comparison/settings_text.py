@@ -7,8 +7,6 @@ from collections.abc import Iterable
 from bent_beam.settings import Setting, about, settings
 from comparison.readable import text_table
 
-__all__ = ["settings_markdown", "settings_text"]
-
 HEAD = ["field", "unit", "default", "allowed", "what"]
 
 

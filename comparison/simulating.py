@@ -34,8 +34,6 @@ from comparison.runs import Runs, runs_of
 from theory import Prediction, predict
 from theory.validity import ENDS
 
-__all__ = ["Simulated", "simulate_case"]
-
 BAND = "without damping a whole impact is a band, which bentbeam bounce gives; one run has no number of it"
 
 

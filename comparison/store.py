@@ -27,11 +27,6 @@ from bent_beam.errors import InputError
 from bent_beam.files import write_atomically
 from bent_beam.versions import versions
 
-__all__ = [
-    "PACKAGES", "RunStore", "check_writable", "code_of", "default_store", "digest_of_files", "installed",
-    "source_digest", "source_of", "this_code", "write_atomically",
-]  # fmt: skip
-
 PACKAGES = ("bent_beam", "theory", "hermite_fe", "self_similar_fe", "exudyn_models", "comparison")
 ROOT = Path(__file__).resolve().parent.parent
 LOADED = time.time()

@@ -22,8 +22,6 @@ from comparison.readable import (
 )  # fmt: skip
 from comparison.whole_numbers import BETWEEN_WALLS, WHOLE
 
-__all__ = ["bounce_text", "prediction_text", "run_text", "validity_text"]
-
 COLUMNS = {
     "half_contact_length": ("half contact", "m"),
     "reaction": ("reaction", "N"),

@@ -7,8 +7,6 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-__all__ = ["BETWEEN_WALLS", "FINAL", "HIT", "NUMBERS", "OF_ONE_WALL", "WHOLE", "WholeNumber"]
-
 
 class WholeNumber(NamedTuple):
     """What is said of a number.

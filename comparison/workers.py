@@ -19,8 +19,6 @@ from bent_beam.checks import whole
 from bent_beam.errors import InputError, TimeLimitError
 from comparison.store import this_code
 
-__all__ = ["Clock", "run_all"]
-
 FIRST_ANSWER = 8.0  # s that a scheduler has to answer
 FIRST_WORKER = 15.0  # s until one is there, and again until all have answered
 IDLE = 10  # s until a worker without work ends; until then the next stage of a command finds it warm

@@ -29,8 +29,6 @@ from exudyn_models.integrators import Integrator
 from exudyn_models.resolution import lasts_until_waves_return, modelled_half_length, reachable, thin_front
 from exudyn_models.solvers import NewtonSolver
 
-__all__ = ["Chosen", "Layout", "assemble", "lay_out", "settings_of", "stable_step"]
-
 STRETCH = 1e-4  # largest strain under the axial force in the linear limit: lengths are then right to as much
 TAUT = 1e4  # EAΛ²/EI under it: the stretch then moves the front by 7e-4 of what the force itself does (κ/ν = 0.5)
 STRETCH_LATER = 1e-7  # likewise once waves are back: else waves along the beam take up to 1e-2 of the energy

@@ -40,8 +40,6 @@ from exudyn_models.method import ExudynModel
 from exudyn_models.resolution import GROWTH_OF_WAVES, chosen_half_length, lasts_until_waves_return
 from exudyn_models.segments import Segment
 
-__all__ = ["Built", "build"]
-
 ELEMENTS_OF_ZONE = 100.0  # equal elements up to the front's bound, …
 BEYOND_ZONE = 1.2  # … and so much further. With D = 40 r₀ is within 0.03 % for κ/ν from 0.1 to 0.9
 EQUAL_STEPS = 1500

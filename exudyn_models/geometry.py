@@ -32,11 +32,6 @@ from bent_beam.fields import Part, Quantity
 from bent_beam.loads import FreeMotion
 from bent_beam.modes import lowest_mode
 
-__all__ = [
-    "GEOMETRIES", "STEEPEST", "Array", "Flags", "Geometry", "Indices", "LinearLimit", "Scaling",
-    "Shape", "TrueGeometry", "Units", "element_times", "supports_or_plate",
-]  # fmt: skip
-
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 Indices = NDArray[np.int64]

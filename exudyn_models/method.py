@@ -34,8 +34,6 @@ from exudyn_models.solvers import SOLVERS, NewtonSolver, filled, quiet
 from exudyn_models.stepping import Stepping, Until, saved_times
 from exudyn_models.warnings_of_run import warnings_of_run
 
-__all__ = ["ExudynModel", "simulate"]
-
 MODELLED = (
     *("acceleration", "curvature_rate", "fourth_derivative", "axial_force", "rotation"),
     *("shear_stiffness", "wall_stiffness", "wall_damping", "wall_from", "wall_to", "left_end", "right_end"),

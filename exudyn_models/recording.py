@@ -27,8 +27,6 @@ from exudyn_models.elements import Beam
 from exudyn_models.geometry import Array
 from exudyn_models.integrators import Averages
 
-__all__ = ["Recorder"]
-
 ROWS = 33  # states that are collected before they are summed up
 
 

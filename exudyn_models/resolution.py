@@ -21,11 +21,6 @@ from bent_beam.meshes import Mesh, NodesMesh, ScaleFreeMesh
 from exudyn_models.geometry import Array, Indices, Scaling
 from exudyn_models.integrators import Implicit
 
-__all__ = [
-    "chosen_half_length", "chosen_mesh", "chosen_steps", "far_field", "lasts_until_waves_return",
-    "modelled_half_length", "near_buckling", "reachable", "resolving_step", "step_of_wall", "thin_front",
-]  # fmt: skip
-
 GROWTH = 0.01  # neighbours of the chosen mesh: 5 elements over the front's bending length at κ/ν = 0.05, 20 at 0.2
 THIN = 0.12  # κ/ν below which hits of nodes at the front of that mesh lift the zone; 0.07 without: λ₁ 23 % off
 WAVES, GROWTH_OF_WAVES = 2.0, 0.02  # beyond so many times the front's bound there are waves only, and these neighbours

@@ -8,8 +8,6 @@ from typing import Any
 
 from bent_beam.errors import InputError
 
-__all__ = ["Segment", "growing_segments"]
-
 MAXIMUM_STEPS = 5_000_000
 LEFT_BY_HALVING = 1e-3  # of a step, what halving it may leave
 EVEN = 12.5  # steps of one length at least, while steps grow …

@@ -25,8 +25,6 @@ from exudyn_models.contacts import ContactRun
 from exudyn_models.contacts.base import TINY
 from exudyn_models.geometry import Flags
 
-__all__ = ["ANY", "Settling"]
-
 BLOCK, PERSISTENCE = 15, 60  # repetitions
 ANY = 1e300  # no measure of Exudyn's own is above
 

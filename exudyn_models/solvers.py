@@ -17,8 +17,6 @@ import exudyn as exu
 
 from bent_beam.fields import Part, Quantity
 
-__all__ = ["SOLVERS", "NewtonSolver", "filled", "open_viewer", "quiet", "wait_until_closed"]
-
 BLUE = [0.12, 0.35, 0.67, 1.0]
 
 

@@ -28,8 +28,6 @@ from exudyn_models.segments import Segment
 from exudyn_models.settling import ANY, Settling
 from exudyn_models.solvers import open_viewer, wait_until_closed
 
-__all__ = ["Stepping", "Until", "saved_times"]
-
 MOST_NODES = 200_000  # Exudyn takes 10 kB for each: 2 GB
 MOST_WORK = 2e9  # steps x nodes: some hours
 SECONDS = 5e-6  # a step and node, measured with 200 to 240

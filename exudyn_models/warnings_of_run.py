@@ -16,8 +16,6 @@ from exudyn_models.resolution import far_field
 from exudyn_models.settling import Settling
 from exudyn_models.stepping import Stepping
 
-__all__ = ["warnings_of_run"]
-
 LARGEST_STEP = 0.05  # of the end time: the front then moves by a fortieth of the contact length in one
 MOST_CYCLES = 0.05  # of the steps
 DEEPEST = 0.01  # of V₀t

@@ -32,8 +32,6 @@ from exudyn_models.integrators import Implicit, Trapezoidal
 from exudyn_models.resolution import STEP, near_buckling, resolving_step, shortest_element, step_of_wall
 from exudyn_models.solvers import filled
 
-__all__ = ["cross_checks", "for_whole_beam", "varied"]
-
 M = TypeVar("M", bound=Any)  # :class:`exudyn_models.method.ExudynModel`, which has these functions as methods
 
 UNHELD = Penalty(hold_start=0.0)

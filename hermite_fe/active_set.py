@@ -18,8 +18,6 @@ from hermite_fe.banded import FADED, copy
 from hermite_fe.compiled import Array, compiled, compiled_within
 from hermite_fe.constraints import Constraints, Rows, Solver, count_rounds, exchange, update
 
-__all__ = ["CYCLING", "NOT_FINITE", "SINGULAR", "SOLVED", "find_wrong", "solve_constrained", "solve_free"]
-
 SOLVED, SINGULAR, CYCLING, NOT_FINITE = range(4)
 
 ROUND_OFF = 1e-13  # of the terms summed

@@ -20,9 +20,6 @@ from numpy.typing import NDArray
 
 from hermite_fe.compiled import Array, Flags, Places, compiled, compiled_within
 
-__all__ = ["FADED", "PAD", "combine", "copy", "dot", "factor", "multiply", "product", "row_sums", "stiff_multiply",
-           "stiff_product", "substitute_back", "substitute_forward"]  # fmt: skip
-
 PAD = 4
 BLOCK = 16  # unknowns after which a solution is checked for having faded
 FADED = 1e-100

@@ -31,8 +31,6 @@ from bent_beam.meshes import checked_nodes
 from hermite_fe.banded import stiff_product
 from hermite_fe.compiled import Array
 
-__all__ = ["HermiteBeam", "shape_functions"]
-
 REFINEMENTS = 4  # of a static solution
 SHAPES = [Polynomial(c) for c in ([1, 0, -3, 2], [0, 1, -2, 1], [0, 0, 3, -2], [0, 0, -1, 1])]  # of ξ, N₂ and N₄ over l
 

@@ -25,8 +25,6 @@ from numba.extending import overload, register_jitable
 from numpy.typing import NDArray
 from platformdirs import user_cache_path
 
-__all__ = ["Array", "Flags", "Places", "compiled", "compiled_within", "recompiling"]
-
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 Places = NDArray[np.int64]

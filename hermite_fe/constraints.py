@@ -20,10 +20,6 @@ from hermite_fe.banded import PAD, copy, factor, substitute_back, substitute_for
 from hermite_fe.compiled import Array, Flags, Places, compiled, compiled_within
 from hermite_fe.system import System
 
-__all__ = ["WORST", "Constraints", "ContactLaw", "Rows", "Solver", "ask_for_gaps", "ask_for_rebound", "constraints_of",
-           "count_rounds", "exchange", "find_candidates", "note_complementarity", "row_times", "rows_times",
-           "set_bounds", "solver_of", "some_gave_way", "update"]  # fmt: skip
-
 SMALLEST_REACTION, PRODUCT = range(2)
 """Indices in ``worst``: the smallest impulse above what its constraint may pull, and the largest |p·slack|."""
 WORST = ("smallest_reaction", "complementarity_product")

@@ -27,9 +27,6 @@ import numpy as np
 
 from hermite_fe.compiled import Array, compiled, compiled_within
 
-__all__ = ["FORCE", "FORCE_TIME", "NO_SPRINGS", "PEAKS", "PENETRATION", "PRESSURE", "Springs", "push",
-           "stored_energy"]  # fmt: skip
-
 FORCE, FORCE_TIME, PENETRATION, PRESSURE = range(4)
 """Indices in ``State.peaks``: the largest force on the whole zone of all steps, N, and its time, s; the largest
 penetration, m, and pressure, N/m (at a stop force, N)."""

@@ -28,8 +28,6 @@ from hermite_fe.compiled import Array, compiled, compiled_within
 from hermite_fe.constraints import Solver
 from hermite_fe.system import Bending, Branches
 
-__all__ = ["add_branch_forces", "branch_energy", "branches_at_rest", "step_branches", "stiffen", "strains_of"]
-
 
 def branches_at_rest(matrix: Array, fitted: hysteresis.Branches) -> Branches:
     """Branches that are slack, of which no step matrix is made yet."""

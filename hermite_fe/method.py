@@ -26,8 +26,6 @@ from hermite_fe.resolution import Composition
 from hermite_fe.run import Stepper
 from hermite_fe.simulate import refusal, simulate, spreads
 
-__all__ = ["HermiteFE"]
-
 
 @dataclass(frozen=True)
 class HermiteFE(Composition):

@@ -51,7 +51,6 @@ from hermite_fe.masses import ConsistentMass, Mass
 from hermite_fe.maxwell import branches_at_rest
 from hermite_fe.system import NO_BRANCHES, Bending, ContactRows, System
 
-__all__ = ["MODELLED", "BeamModel", "beam_model"]
 CONSISTENT = ConsistentMass()
 NEAR = 1e-9  # of the length: a node so near an edge of the wall lies on it
 HELD = {"free": 0, "hinged": 1, "clamped": 2}  # dofs of the end node

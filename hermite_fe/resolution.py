@@ -46,8 +46,6 @@ from hermite_fe.far_fields import FarField, GridViscosity
 from hermite_fe.integrators import Integrator, Midpoint, MoreauJean, SignoriniPosition
 from hermite_fe.masses import ConsistentMass, Mass
 
-__all__ = ["Choice", "Composition", "choose", "front"]
-
 THIN = 0.005  # κ/ν below which scale-free elements all the way would be too many
 ZONE = 1.2  # of the front's place at the end: elements are fine up to there
 SMALLEST_ELEMENT = 4e-3  # of ℓ at the end of the run, at the centre

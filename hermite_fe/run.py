@@ -22,8 +22,6 @@ from hermite_fe.maxwell import branch_energy
 from hermite_fe.stepping import ENERGIES, LARGEST, problem_of, state_of
 from hermite_fe.system import System
 
-__all__ = ["Stepper", "Trajectory", "integrate", "saved_steps", "trajectory_of"]
-
 UNSTABLE = 10.0  # times the energy that a beam has been given, at the end: what is not resolved may swing in between
 FAILURES = {
     SINGULAR: "the step matrix is not positive definite",

@@ -24,8 +24,6 @@ from hermite_fe.stepping import ENERGIES
 from hermite_fe.warnings_of_run import end_warnings, lift_warnings, resolution_warnings, rounds_warnings
 from hermite_fe.whole_beam import begins
 
-__all__ = ["refusal", "simulate", "spreads"]
-
 SHARED = {*ENERGIES, "kinetic_energy", "strain_energy", "branch_energy", "contact_energy", "peak_force"}
 """Sums that are the model's share of the whole beam's."""
 

@@ -15,10 +15,6 @@ from hermite_fe.elastic_wall import Springs
 from hermite_fe.maxwell import strains_of
 from hermite_fe.system import Bending, Branches, System
 
-__all__ = ["ENERGIES", "LARGEST", "MATERIAL", "WALL", "Matrices", "Problem", "State", "add_energies", "add_impulses",
-           "end_step", "forces_at", "initial_acceleration", "mean_forces", "prepare", "problem_of",
-           "state_of"]  # fmt: skip
-
 WORK, IMPACT, ALGORITHMIC, VISCOUS, MATERIAL, ABSORBED, WALL = range(7)
 """Indices in ``State.energy``, J since the start: the work of the loads, and the losses to impacts, to the scheme's own
 damping, to viscosity at grid scale, to the material's damping, to an absorbing layer, to the dashpots of the wall. Each

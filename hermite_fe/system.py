@@ -18,8 +18,6 @@ from bent_beam.errors import InputError
 from hermite_fe.compiled import Array, Places
 from hermite_fe.elastic_wall import NO_SPRINGS, Springs
 
-__all__ = ["DAMPINGS", "NO_BRANCHES", "Bending", "Branches", "ContactRows", "System"]
-
 DAMPINGS = ("viscous", "material", "absorbed")
 """Causes of damping whose losses are recorded apart: viscosity at grid scale, the material, an absorbing layer."""
 

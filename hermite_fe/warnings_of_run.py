@@ -14,8 +14,6 @@ from hermite_fe.integrators import Integrator
 from hermite_fe.model import BeamModel
 from hermite_fe.resolution import front
 
-__all__ = ["end_warnings", "lift_warnings", "resolution_warnings", "rounds_warnings"]
-
 ELEMENTS_PER_FRONT = 2.0  # fewer in ℓ deserve a warning
 MOST_ROUNDS = 100  # of the active set in one step; sound runs take ten or so
 BY_GRID = "; grid viscosity damps it, of which HermiteFE().for_whole_beam(impact) has none"

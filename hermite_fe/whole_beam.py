@@ -33,9 +33,6 @@ from hermite_fe.resolution import (
     scheme_for,
 )
 
-__all__ = ["ELEMENTS", "begins", "element", "scheme", "step"]
-
-
 FEWEST_IN_FRONT = 4.0  # with fewer even elements the early impulse of one point is off by more than 1 %
 ELEMENTS = 200  # of a half beam that is followed until it has left
 SHEARED_ELEMENTS, SHEARED_STEP = 100, 0.0125  # likewise with shear; step, T*, over the element's share of the half beam

@@ -13,8 +13,6 @@ from numpy.typing import NDArray
 from bent_beam.errors import InputError
 from bent_beam.fields import Part, Quantity
 
-__all__ = ["MESHES", "Array", "ExpandingMesh"]
-
 Array = NDArray[np.float64]
 MAXIMUM_NODES = 100_000
 

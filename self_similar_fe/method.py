@@ -16,8 +16,6 @@ from bent_beam.method import Save
 from self_similar_fe.mesh import MESHES, ExpandingMesh
 from self_similar_fe.run import simulate_expanding
 
-__all__ = ["SelfSimilarFE"]
-
 MODELLED = ("acceleration", "curvature_rate", "fourth_derivative", "axial_force")
 """The loads that :mod:`self_similar_fe.run` models."""
 

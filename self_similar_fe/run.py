@@ -35,8 +35,6 @@ from bent_beam.impact import Impact
 from self_similar_fe.mesh import Array, ExpandingMesh
 from self_similar_fe.similarity import leading_obstacle, similarity
 
-__all__ = ["Run", "simulate_expanding"]
-
 MOST_WORK = 1e9  # steps x nodes: about an hour
 LARGEST_PULL = 0.1  # in any step, over the largest push: sound runs under loads reach 0.03 by round-off
 MOST_WIDENED = 100.0  # times a tolerance of the active set that had to be widened in a step

@@ -21,8 +21,6 @@ from scipy.linalg import solve_banded
 
 from self_similar_fe.mesh import Array, ExpandingMesh
 
-__all__ = ["Similarity", "leading_obstacle", "similarity"]
-
 GAP_ROUND_OFF = 1e-10  # in W, that is V₀t; at 1e-9 pressed zones rest on so few nodes that λ₁, r₁ scatter by 2 %
 FAST = 0.75  # of the round before: all wrong contacts are exchanged while their number falls below this share of it
 FEW = 2  # runs up to this length are exchanged whole

@@ -41,9 +41,10 @@ from numpy.typing import ArrayLike
 
 from bent_beam.checks import between, finite, non_negative, positive
 from theory._fresnel import FloatArray
-from theory.bars import DroppedBar, FlyingBar, ReleasedBar, placed
-
-__all__ = ["BouncingBall", "DroppedBar", "FlyingBar", "ReleasedBar", "StringOnObstacle"]
+from theory.bars import DroppedBar as DroppedBar
+from theory.bars import FlyingBar as FlyingBar
+from theory.bars import ReleasedBar as ReleasedBar
+from theory.bars import placed
 
 
 @dataclass(frozen=True)

@@ -34,11 +34,6 @@ from theory import damped_point
 from theory._fresnel import FloatArray
 from theory.contact import ContactParameters
 
-__all__ = [
-    "FLATTEST_SHEARED", "FORGOTTEN", "StoppedPoint", "early_until", "early_zone", "first_instants", "forgotten_after",
-    "rim",
-]  # fmt: skip
-
 #: t_s after which force, impulse and rim are within 2 % of `first_instants` (``python -m benchmarks.shear``).
 FORGOTTEN = 10.0
 #: κ/ν of the flattest zone of which the impulse is, too.

@@ -15,8 +15,6 @@ from theory.contact import contact_parameters
 from theory.elastic_wall import flat_limit, peak_force, sharp_limit, wall_history
 from theory.wall_prediction import zone_offset
 
-__all__ = ["draw_force", "draw_peak_force", "draw_return"]
-
 RATIOS = (0.05, 0.2, 0.5, 1.0, 5.0)
 DAMPINGS = (0.0, 0.1, 0.25, 0.5, 1.0)
 TIME = r"$t/t_k$  (1)"

@@ -18,16 +18,14 @@ from typing import Any
 
 import numpy as np
 
+from bent_beam.files import write_atomically
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.method import Method, refined
 from bent_beam.versions import stamp
 from comparison.figures import style
 from comparison.methods import methods_of
-from comparison.store import write_atomically
 from theory.similarity import peak_moment
-
-__all__ = ["KAPPAS", "MeasuredMoment", "draw_moments", "measure_moment", "moment_over_time"]
 
 KAPPAS = (0.01, 0.05, 0.1, 0.2, 0.5, 0.8, 1.5)
 FLATTEST = {"hermite": 0.01, "exudyn": 0.05}  # κ/ν of the flattest contact whose front a path's own mesh resolves

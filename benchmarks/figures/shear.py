@@ -21,8 +21,6 @@ from comparison.bouncing import bounce
 from comparison.figures import style
 from theory.shear import StoppedPoint
 
-__all__ = ["draw", "over_theory", "stopped_run"]
-
 FloatArray = NDArray[np.float64]
 
 RATIO, DAMPING = 0.2, 3e-3  # κ_sG/E of a pipe, η/T*

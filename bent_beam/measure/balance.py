@@ -26,8 +26,6 @@ from bent_beam.history import ImpactHistory
 from bent_beam.measure.limits import beyond_limits, limited_as
 from bent_beam.measure.reduction import hold_of
 
-__all__ = ["Balance", "balance_of"]
-
 Array = NDArray[np.float64]
 LEAST_PUSH = 1e-6  # of the largest gain of a contact point between two saved instants: less is no push
 LAST = 0.5  # of the run that is looked at: earlier, the start is not resolved

@@ -9,8 +9,6 @@ from numpy.typing import NDArray
 
 from bent_beam.history import ImpactHistory
 
-__all__ = ["force_map", "spread"]
-
 Array = NDArray[np.float64]
 
 

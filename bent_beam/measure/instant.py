@@ -16,8 +16,6 @@ from bent_beam.history import ImpactHistory
 from bent_beam.measure.moments import AROUND, first_front, half_contact_length, lift, mean_reaction, unsure
 from bent_beam.measure.reduction import moment_left_out, peak_moment, wall_peaks
 
-__all__ = ["BEYOND", "Instant", "instant"]
-
 SHARES_AROUND = np.linspace(1.0 - AROUND, 1.0 + AROUND, 9)  # of an instant
 BEYOND = 1.0 + AROUND  # times an instant: how far a run must go to be read there
 

@@ -6,8 +6,6 @@ from typing import Any
 
 from bent_beam.history import ImpactHistory
 
-__all__ = ["ELSEWHERE", "LIMITS", "beyond_limits", "limited_as"]
-
 LIMITS = {
     "hermite": {"penetration": 1e-3, "pull": 1e-3, "energy": 4e-7, "middle_slope": 1e-9},
     "self_similar": {"penetration": 1e-5, "pull": 0.1, "energy": 0.06, "middle_slope": 3e-8},

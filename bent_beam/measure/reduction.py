@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 
 from bent_beam.history import ImpactHistory
 
-__all__ = ["WALLS", "PeakMoment", "WallPeaks", "hold_of", "moment_left_out", "peak_moment", "pull_of", "wall_peaks"]
-
 Array = NDArray[np.float64]
 CHUNK = 256  # saved instants at once
 OF_RUN, OF_BEAM = 0.02, 0.002  # see _first_resolved

@@ -28,8 +28,6 @@ from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.measure.reduction import WALLS, moment_left_out, peak_moment, wall_peaks
 
-__all__ = ["SHORTEST_SEPARATION", "WINDOW", "Hit", "WholeImpact", "hits", "peak_times", "pushes", "whole_impact"]
-
 Array = NDArray[np.float64]
 
 SHARES = ("translation", "vibration", "dissipated")  # of the energy

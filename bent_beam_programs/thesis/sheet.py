@@ -22,9 +22,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
 
+from bent_beam.files import write_atomically
 from comparison.figures import style
 from comparison.readable import readable
-from comparison.store import write_atomically
 
 NAMES = "lambda kappa nu tau xi beta eta alpha psi chi varphi varepsilon rho theta mu infty Delta partial tilde sqrt"
 TEX = {f"\\{name}": letter for name, letter in zip(NAMES.split(), "λκντξβηαψχφερθμ∞Δ∂~√")}

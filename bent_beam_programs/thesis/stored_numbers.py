@@ -12,11 +12,11 @@ import csv
 from pathlib import Path
 
 from bent_beam import stored
+from bent_beam.files import write_atomically
 from bent_beam_programs.thesis.gallery import ITEMS
 from bent_beam_programs.thesis.gallery.numbers import markdown
 from bent_beam_programs.thesis.stored_studies import FILE, PACKAGES, small_picture
 from bent_beam_programs.thesis.verdicts import CLASSES, summary
-from comparison.store import write_atomically
 
 SHOWN = ("extra-filter", "fig-3.24", "fig-3.27", "fig-3.34")  # of the five verdicts
 WIDTH = 900  # of a small picture, pixels

@@ -19,9 +19,9 @@ from PIL import Image
 from bent_beam import stored
 from bent_beam.cases import Case, case_from_tables
 from bent_beam.errors import SimulationError
+from bent_beam.files import write_atomically
 from bent_beam.versions import today
 from bent_beam_programs.thesis.studies import STUDIES, run_study
-from comparison.store import write_atomically
 from comparison.workers import run_all
 
 FILE = Path(__file__).resolve().parents[1] / "stored_studies" / "studies.json"

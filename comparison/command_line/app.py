@@ -27,8 +27,6 @@ from comparison.command_line.options import printable
 from comparison.command_line.theory import match, theory
 from comparison.command_line.whole import bounce, sweep
 
-__all__ = ["COMMANDS", "add_programs", "app", "main", "run"]
-
 COMMANDS = (new, predict, bounce, sweep, plot, simulate, settings, compare, rerun, theory, match)
 """Of the library, in the order of ``bentbeam --help``."""
 

@@ -12,8 +12,6 @@ from bent_beam.errors import InputError, SimulationError
 from comparison.command_line import options
 from comparison.command_line.options import check_out, complete, emit, of_path, progress
 
-__all__ = ["new", "predict", "settings", "simulate"]
-
 
 def section_kinds(incomplete: str) -> list[str]:
     """Completion of ``--section``."""
@@ -48,8 +46,8 @@ def new(
 
     Example: bentbeam new my_tube.toml --like tube
     """
+    from bent_beam.files import write_atomically
     from bent_beam.new_case import example, new_case
-    from comparison.store import write_atomically
 
     if like is not None and not (section is None and damping_ratio is None):
         raise InputError(f"--like {like}: the example has its section and damping; change them in {out}")

@@ -10,8 +10,6 @@ import typer
 from comparison.command_line import options
 from comparison.command_line.options import check_out, emit, progress
 
-__all__ = ["compare", "plot", "rerun"]
-
 
 def rerun(
     file: Annotated[Path, typer.Argument(metavar="FILE.nc", help="A history written by simulate --out.")],

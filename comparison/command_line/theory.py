@@ -10,8 +10,6 @@ import typer
 from comparison.command_line import options
 from comparison.command_line.options import emit, end_of_rows, factors, numbers, of_path, progress
 
-__all__ = ["match", "theory"]
-
 
 def theory(
     kappa_over_nu: Annotated[float, typer.Option(help="κ/ν = K √(EI/μ)/V₀.")],

@@ -15,8 +15,6 @@ from comparison.command_line.options import emit, end_of_rows, of_path, progress
 if TYPE_CHECKING:
     from bent_beam import Case, Method
 
-__all__ = ["bounce", "sweep"]
-
 
 def bounce(
     case: Annotated[

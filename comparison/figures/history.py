@@ -20,8 +20,6 @@ from comparison.figures.style import Film, write_gif
 from comparison.readable import in_unit, largest_of
 from theory import predict
 
-__all__ = ["animate", "draw_history", "impact_figure"]
-
 FRAMES, PER_SECOND = 90, 18
 MARGIN = 1.15  # times the last push, or the largest moment: the end of the axes
 NEARLY = 0.7  # of the record: where that is later, all of it is drawn

@@ -15,14 +15,12 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from bent_beam.as_json import json_text
+from bent_beam.files import write_atomically
 from comparison.figures import style
 from comparison.figures.work_precision import draw_work_precision
 from comparison.readable import csv_text
 from comparison.rows import First, MatchRow, match_document
-from comparison.store import write_atomically
 from theory import contact_parameters
-
-__all__ = ["draw_matching", "leading_figure", "write_match"]
 
 DASHES = ("-", "--", ":", "-.")
 """Of theory's curves, a kind for each load."""

@@ -17,8 +17,6 @@ from bent_beam.measure.whole_impact import WINDOW
 from comparison.figures import style
 from comparison.readable import milliseconds, unit_for
 
-__all__ = ["contacts", "draw_force", "draw_wall", "heights", "impulse_given", "sheet"]
-
 Array = NDArray[np.float64]
 Panel = Callable[[Any, ImpactHistory, float], None]
 """Draws a run on an axis, until a time, s."""

@@ -20,7 +20,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from comparison.store import write_atomically
+from bent_beam.files import write_atomically
 
 COLUMN = 3.4  # width of one column, inches
 PAGE = 7.0  # width of both

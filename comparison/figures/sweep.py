@@ -14,8 +14,6 @@ from comparison.readable import readable, unit_for
 from comparison.sweeping import SweepTable, numeric
 from comparison.whole_numbers import WHOLE
 
-__all__ = ["sweep_figure"]
-
 SHOWN = ("peak_stress", "peak_moment", "peak_force", "restitution", "impulse")
 """Numbers that are drawn where there are any, in this order; the moment only without a stress."""
 CURVES, MAPS = 3, 2  # panels

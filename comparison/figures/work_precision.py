@@ -18,8 +18,6 @@ from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter
 from comparison.figures import style
 from comparison.rows import HELD_AGAINST, MatchRow
 
-__all__ = ["draw_work_precision"]
-
 SMALLEST = 1e-7  # errors below are drawn here
 LARGEST = 1.0  # errors above leave the frame: there is no number
 MANY = 7  # methods that one panel can tell apart

@@ -30,8 +30,6 @@ from exudyn_models.geometry import Array, Flags, Geometry, Indices, LinearLimit
 from exudyn_models.integrators import GeneralizedAlpha, Integrator
 from exudyn_models.solvers import NewtonSolver
 
-__all__ = ["START", "Contact", "ContactRun", "HeldStrip", "Hold", "Wall"]
-
 TINY = 1e-30  # a gap that is a state and no length
 START = 0.01  # of the end time
 Hold = Annotated[

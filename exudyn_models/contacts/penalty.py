@@ -43,8 +43,6 @@ from exudyn_models.geometry import Array, Flags, element_times
 from exudyn_models.integrators import Integrator, Trapezoidal
 from exudyn_models.solvers import NewtonSolver
 
-__all__ = ["Penalty", "Springs", "covered"]
-
 STIFFNESS, DAMPING = 10.0, 3.0  # C and D
 PLASTIC = 40.0  # D behind a thin front
 MATCHED = 4.0 * math.sqrt(3.0)  # D with shear, elements shorter than l_s: d Δx = 2√(κ_sGA μ) …

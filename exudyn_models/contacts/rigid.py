@@ -24,8 +24,6 @@ from exudyn_models.elements import Beam, Element
 from exudyn_models.geometry import Array, Flags, Indices
 from exudyn_models.integrators import Integrator, Newmark
 
-__all__ = ["Rigid"]
-
 RETURN = 0.2  # of its depth in a step: how fast a captured node is led back to the wall
 
 

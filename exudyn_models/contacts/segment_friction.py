@@ -25,8 +25,6 @@ from exudyn_models.geometry import Array, Flags, Geometry, Indices, LinearLimit
 from exudyn_models.integrators import Integrator
 from exudyn_models.solvers import NewtonSolver
 
-__all__ = ["SegmentFriction"]
-
 TRUE_SHARE = 0.25  # of the curvature, true geometry
 OPEN = [0.1, -2.0, 0.0]  # states of a segment, neither sticking nor slipping
 

@@ -21,8 +21,6 @@ from bent_beam.loads import UNSHEARED
 from exudyn_models.elements.beam import Beam, Element
 from exudyn_models.geometry import Array
 
-__all__ = ["ANCFCable"]
-
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(4)
 CUBICS = np.array([[1.0, 0.0, -3.0, 2.0], [0.0, 1.0, -2.0, 1.0], [0.0, 0.0, 3.0, -2.0], [0.0, 0.0, -1.0, 1.0]]).T
 AT_STRETCH, AT_BENDING, AT_ENDS = (

@@ -19,8 +19,6 @@ from bent_beam import Impact
 from bent_beam.fields import Part, Quantity
 from exudyn_models.geometry import Array, Indices, Scaling, Shape, Units, element_times
 
-__all__ = ["Beam", "Element", "shares"]
-
 VISCOSITY = 0.15  # of √(EIμ)Δx² of an element, λ₀ is off in proportion; tests/comparison/test_constants.py
 VISCOSITY_SHEARED = 0.015  # of an element shorter than l_s, in its own time; with 0.15 the first moments are 7 % low
 VISCOSITY_EXPLICIT = 0.003  # more would shorten the stable step

@@ -19,8 +19,6 @@ import numpy as np
 from exudyn_models.elements.beam import Beam, Element
 from exudyn_models.geometry import Array, Scaling, Shape
 
-__all__ = ["GeometricallyExact"]
-
 PAIR = np.array([[2.0, 1.0], [1.0, 2.0]]) / 6  # products of the linear shape functions, of the unit element
 RIGID_SHEAR, LITTLE_ROTARY = 100.0, 0.01  # in EI/Δx² and μΔx², of a beam without shear: neither has a visible effect
 

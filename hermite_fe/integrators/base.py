@@ -16,8 +16,6 @@ from bent_beam.impact import Impact
 from hermite_fe.compiled import Array
 from hermite_fe.stepping import Problem, State
 
-__all__ = ["Integrator"]
-
 MAXIMUM_STEPS = 20_000_000
 MOST_WORK = 1e11  # steps x nodes: one to four hours
 
@@ -92,8 +90,8 @@ class Integrator(Part, ABC):
         grown = math.log(end_time / switch) / math.log1p(growth) if switch < end_time else 0.0
         if not even + grown <= MAXIMUM_STEPS:
             raise InputError(
-                f"a run to t = {end_time:.4g} s takes {even + grown:.3g} steps, and {MAXIMUM_STEPS:.2g} are the most: give "
-                f"run.end_time earlier, or integrator.time_step longer (it is {step:.4g} s, growth {growth:g})"
+                f"a run to t = {end_time:.4g} s takes {even + grown:.3g} steps, and {MAXIMUM_STEPS:.2g} are the most: "
+                f"give an earlier end, or a longer integrator.time_step (it is {step:.4g} s, growth {growth:g})"
             )
         times = np.linspace(0.0, switch, max(1, math.ceil(even * (1.0 - 1e-12))) + 1)
         if switch < end_time:

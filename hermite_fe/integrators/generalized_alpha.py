@@ -38,8 +38,6 @@ from hermite_fe.compiled import Array, Flags, compiled_within, recompiling
 from hermite_fe.constraints import row_times
 from hermite_fe.stepping import Problem, State, add_energies, end_step, initial_acceleration, mean_forces, prepare
 
-__all__ = ["Motion", "SpectralRadius", "Vectors", "correct", "finish_step", "motion_of", "predict", "prepare_step",
-           "take_reaction"]  # fmt: skip
 SpectralRadius = Annotated[float, Quantity("", "ρ∞ at infinite frequency (1: none is damped)", least=0.0, most=1.0)]
 
 

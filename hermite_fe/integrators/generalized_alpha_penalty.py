@@ -35,8 +35,6 @@ from hermite_fe.integrators import generalized_alpha as alpha
 from hermite_fe.integrators.base import Integrator
 from hermite_fe.stepping import Problem, State, forces_at
 
-__all__ = ["GeneralizedAlphaPenalty"]
-
 
 class PenaltyMemory(NamedTuple):
     """The motion, work arrays of the contact, and k_c, d_c and ``contact_rounds``."""

@@ -33,7 +33,6 @@ from hermite_fe.constraints import Constraints, ask_for_gaps, constraints_of, no
 from hermite_fe.integrators.base import MOST_WORK, Integrator
 from hermite_fe.stepping import Problem, State, add_energies, add_impulses, end_step, forces_at, mean_forces, prepare
 
-__all__ = ["MasslessBoundary"]
 STABLE = 0.8  # of a step, over the period of the fastest wave / 2π; Verlet's limit is 2
 
 

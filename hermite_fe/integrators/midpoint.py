@@ -26,8 +26,6 @@ from hermite_fe.integrators.base import Integrator
 from hermite_fe.integrators.theta import Vectors, begin_step, finish_step, vectors_of
 from hermite_fe.stepping import WALL, Problem, State
 
-__all__ = ["Midpoint"]
-
 CONVERGED = 1e-11  # change of Δv over the largest velocity; the next would be its square
 ROUNDED = 2.0**-52  # h times that change over the largest deflection: of a beam at rest nothing smaller can be told
 MOST_ROUNDS = 60

@@ -37,8 +37,6 @@ from hermite_fe.integrators import generalized_alpha as alpha
 from hermite_fe.integrators.base import Integrator
 from hermite_fe.stepping import Problem, State, add_impulses, forces_at
 
-__all__ = ["LEVELS", "NonsmoothGeneralizedAlpha"]
-
 LEVELS = ("velocity", "position_velocity", "position_velocity_acceleration")
 VELOCITY, _, ACCELERATION = range(3)
 # of the rate at which the kinetic energy would move its dofs alone: a slower closed constraint has not rebounded

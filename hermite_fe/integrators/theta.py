@@ -48,8 +48,6 @@ from hermite_fe.integrators.base import Integrator
 from hermite_fe.maxwell import add_branch_forces, step_branches, stiffen
 from hermite_fe.stepping import MATERIAL, Problem, State, add_energies, add_impulses, end_step, mean_forces, prepare
 
-__all__ = ["MoreauJean", "SignoriniPosition", "Vectors", "begin_step", "finish_step", "vectors_of"]
-
 
 class Vectors(NamedTuple):
     """Work arrays of a step, (dofs,): b, Δv, v_θ, v̄ = v + ½Δv, F_θ, and one for anything."""

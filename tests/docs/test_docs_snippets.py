@@ -90,7 +90,7 @@ def test_commands_and_snippets_run(page, all_of_it, folder, capsys):
     space: dict[str, object] = {"__name__": "__docs__"}
     elsewhere = [] if page == PAGES[0] else [block.body for block in blocks(PAGES[0])]
     for block in blocks(page):
-        if block.is_long and not all_of_it or block.body in elsewhere:
+        if (block.is_long and not all_of_it) or block.body in elsewhere:
             continue
         if block.language == "text" and "printed by" in block.options:  # by the block before
             assert without_digits(capsys.readouterr().out) == without_digits(block.body)

@@ -61,7 +61,7 @@ REFUSED = [
     (lambda: GeneralizedAlphaPenalty(stiffness=0.0), "stiffness must be positive"),
     (lambda: GeneralizedAlphaPenalty(damping=-1.0), "damping must not be negative"),
     (lambda: GeneralizedAlphaPenalty(contact_rounds=0), "contact_rounds must be a whole number of at least 1"),
-    (lambda: MoreauJean(time_step=1e-12).instants(1.0), "2e.07 are the most: give run.end_time earlier, or integrator.time_step longer"),
+    (lambda: MoreauJean(time_step=1e-12).instants(1.0), "2e.07 are the most: give an earlier end"),
     (lambda: MoreauJean().instants(1.0), "not chosen yet"),
     # contact points without mass
     (lambda: massless(viscosity=0.3), r"takes no damping: far_field.viscosity"),

@@ -21,12 +21,12 @@ from typing import Any
 
 from bent_beam.as_json import plain
 from bent_beam.errors import ANY_FAILURE, InputError, nearest
+from bent_beam.files import write_atomically
 from bent_beam.stored import digest_of
 from bent_beam_programs.thesis.sheet import ITEMS as _REGISTERED
 from bent_beam_programs.thesis.sheet import Item, Sheet, order
 from comparison.figures.style import FORMATS
 from comparison.readable import readable
-from comparison.store import write_atomically
 from comparison.workers import run_all
 
 PACKAGES = (

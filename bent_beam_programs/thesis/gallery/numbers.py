@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
+from bent_beam.files import write_atomically
 from bent_beam_programs.thesis.gallery import chapter3_first_order as first
 from bent_beam_programs.thesis.gallery.chapter3_contact_point import FLAT, run
 from bent_beam_programs.thesis.gallery.chapter3_leading_order import CURVATURE, DURATION, ELEMENT, MIDDLE, first_impact
@@ -18,7 +19,6 @@ from bent_beam_programs.thesis.studies.first_order_case import FITTED, fitted, o
 from bent_beam_programs.thesis.studies.thesis import MASSES
 from bent_beam_programs.thesis.verdicts import RULE, Printed, counts, summary
 from comparison.readable import readable
-from comparison.store import write_atomically
 from theory import contact_parameters
 
 

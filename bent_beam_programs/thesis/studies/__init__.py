@@ -15,6 +15,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from bent_beam.cases import Case
+from bent_beam.files import write_atomically
 from bent_beam.method import Method
 from bent_beam_programs.thesis.sheet import Sheet
 from bent_beam_programs.thesis.studies import conditioning, first_order_case, numerical, of_exudyn
@@ -22,7 +23,6 @@ from bent_beam_programs.thesis.studies.base import Study, StudyResult, outcomes_
 from bent_beam_programs.thesis.studies.of_methods import CONCLUSION, draw_methods, runs_of_methods
 from bent_beam_programs.thesis.studies.outcome import MEASURES, Outcome
 from bent_beam_programs.thesis.studies.thesis import Progress, run_variants
-from comparison.store import write_atomically
 
 SAME = 30  # characters of a warning that tell its kind: its numbers differ from run to run
 
