@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from bent_beam.files import LOSSES
 from hermite_fe.active_set import NOT_FINITE, SOLVED, solve_free
 from hermite_fe.banded import PAD, combine, dot, multiply, row_sums, stiff_multiply
 from hermite_fe.compiled import Array, Flags, Places, compiled, compiled_within
@@ -21,8 +22,7 @@ damping, to viscosity at grid scale, to the material's damping, to an absorbing 
 has its own formula; the difference between their sum and the change of kinetic, strain and the wall's energy is the
 energy residual of a run."""
 
-ENERGIES = ("work_of_loads", "loss_impact", "loss_algorithmic", "loss_viscous", "loss_material", "loss_absorbed",
-            "loss_wall")  # fmt: skip
+ENERGIES = ("work_of_loads", *LOSSES)
 LARGEST = ("largest_moment", "largest_moment_node", "largest_midspan_moment")
 SAME_STEP = 2.0**-50  # of the time: step lengths that differ by less, the rounding of two instants, are the same
 SAME_FACTOR = 1e-6  # likewise of c and k

@@ -36,7 +36,7 @@ import scipy
 from bent_beam.checks import between, positive
 from theory._fresnel import TURN, FloatArray, scaled_iterated_erfc
 
-#: Range of κ/ν and the largest ζ; beyond these κ/ν `flat_limit` and `sharp_limit` take over.
+#: Range of κ/ν and the largest ζ; `flat_limit` and `sharp_limit` are what the force tends to beyond.
 FLATTEST, SHARPEST, MOST_DAMPED = 1e-6, 1e6, 5.0
 _CELLS = 24  # of the coarsest grid, two steps of time a cell
 _SETTLED = 1e-9  # change of the loads over the force at which a step is solved

@@ -1,6 +1,6 @@
 r"""The two worked examples of perturbation theory: perturbed roots and the Duffing oscillator.
 
-    x² − εx − 1 = 0,    x = ±1 + ε/2 ± ε²/8 + O(ε³)                                   (2.2.2), (2.2.3)
+    x² − εx − 1 = 0,    x = ±1 + ε/2 ± ε²/8 + O(ε⁴)                                   (2.2.2), (2.2.3)
     y″ + y + εy³ = 0,   y(0) = 1,  y′(0) = 0                                          (2.2.4)
     regular expansion   y = cos t + ε[(cos 3t − cos t)/32 − (3/8) t sin t] + O(ε²)    (2.2.8)
     multiple scales     y = cos ωt + (ε/32)(cos 3ωt − cos ωt), ω = 1 + 3ε/8           (2.2.13), (2.2.14)

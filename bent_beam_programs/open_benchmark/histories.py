@@ -10,7 +10,7 @@ from bent_beam.measure.moments import one_side
 from bent_beam_programs.open_benchmark.problem import Problem, first_order_problem
 from bent_beam_programs.open_benchmark.result import Array, Result, ResultError
 
-MOST_SNAPSHOTS = 400
+SNAPSHOTS = 400
 #: Fields of an impact that the exact solution of the infinite beam does not know, and why.
 UNKNOWN = {
     "damping": "the exact solution has none; `bentbeam bounce` gives a damped beam's whole impact",
@@ -36,7 +36,7 @@ def result_from_history(history: ImpactHistory, asked: Problem | None = None) ->
     if "position" not in history:  # a mesh that expands takes in energy with the beam that it takes in
         sources = {"E_kin": "kinetic_energy", "E_el": "strain_energy"}
         series |= {name: history.array(source) / energy for name, source in sources.items() if source in history}
-    keep = np.unique(np.linspace(0, tau.size - 1, min(tau.size, MOST_SNAPSHOTS)).round().astype(int))
+    keep = np.unique(np.linspace(0, tau.size - 1, min(tau.size, SNAPSHOTS)).round().astype(int))
     keep = keep[tau[keep] > 0.0]
     places = np.array([history.positions(int(k)) for k in keep]) / length
     nodes = np.sort(np.abs(places[-1]))

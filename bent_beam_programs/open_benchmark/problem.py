@@ -99,7 +99,8 @@ STOPPED_DAMPING, STOPPED_END = 0.01, 0.1  # the wall first lets go at 0.1516
 class Problem:
     """One problem of the benchmark, in units EI = μ = V₀ = 1 (so l* = t* = 1).
 
-    id : its name. kind : "leading", "point", "first", "bounce" or one of the ladder.
+    id : its name. kind : "leading", "point", "first", "bounce", "stopped-beam", "elastic-wall", "elastic-stop", or one
+    of the ladder's balls, bars and strings.
     kappa_over_nu : κ/ν. loads : (α, ψ, χ, n) with ν = 1, scaled by ``epsilon``; zeros at leading order.
     length : of the whole beam, ``None`` for an infinite one. damping : Kelvin–Voigt time η over T*.
     end_time, fit_window : in t* (the ladder: in the problem's own unit of time). given : the numbers of a problem that

@@ -47,7 +47,8 @@ class Wall:
     waves_return : until when (in end times) no wave is back from the ends, and the zone spreads by itself;
     lifts : load, damping or shear lifts the zone from the first, or the beam touches in a point: no start is held;
     plastic : share, 0 to 1, of the damping that keeps nodes from rebounding at a thin front, of a zone that spreads for
-        the first time; 0 elsewhere;
+        the first time; 0 elsewhere.
+    explicit : the integrator takes explicit steps.
     """
 
     nodes: Indices
