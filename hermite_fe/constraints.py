@@ -21,7 +21,8 @@ from hermite_fe.compiled import Array, Flags, Places, compiled, compiled_within
 from hermite_fe.system import System
 
 SMALLEST_REACTION, PRODUCT = range(2)
-"""Indices in ``worst``: the smallest impulse above what its constraint may pull, and the largest |p·slack|."""
+"""Indices in ``worst``: the smallest impulse above what its constraint may pull, and the largest |p·slack|, J:
+of an impulse and a velocity, or of a force and a gap."""
 WORST = ("smallest_reaction", "complementarity_product")
 
 
@@ -154,7 +155,7 @@ def note_complementarity(
 ) -> None:
     """Record in ``worst`` how far closed constraints are from 0 ≤ p ⊥ Gx − c ≥ 0.
 
-    x : the solution; to_impulse, to_speed : turn p into N s and Gx into m/s (or m).
+    x : the solution; to_impulse, to_speed : turn p into N s and Gx into m/s, or leave N and m.
     """
     for j in range(conditions.p.size):
         if conditions.closed[j]:

@@ -180,7 +180,7 @@ def add_spring_reactions(problem: Problem, state: State, memory: PenaltyMemory, 
         gap, force = rows.gap[j] + g * state.q[d], 0.0
         if state.closed[j]:
             force = -(stiffness * gap + damping * g * state.v[d]) * rows.tributary[j]
-            worst[PRODUCT] = max(worst[PRODUCT], abs(h * force * gap))
+            worst[PRODUCT] = max(worst[PRODUCT], abs(force * gap))
         alpha.take_reaction(motion.scheme, reactions, h, j, force)
         state.impulse[j] += reactions.impulse[j]
         worst[SMALLEST_REACTION] = min(worst[SMALLEST_REACTION], h * force)

@@ -180,7 +180,7 @@ def take_steps(
         if status == SOLVED:
             copy(conditions.closed, state.closed)
             add_impulses(state, conditions)
-            note_complementarity(rows, conditions, vectors.dv, 1.0, theta * h if at_position else 1.0, state.worst)
+            note_complementarity(rows, conditions, vectors.dv, 1.0, 1.0, state.worst)
             status = finish_step(problem, state, conditions.p, vectors, h, theta)
         if status != SOLVED:
             return status, k
