@@ -1,15 +1,23 @@
-"""A run in other units is the same run, in every number of its record and of what is read from it, on every path."""
+"""A run in other units is the same run, in every number of its record and of what is read from it, on every path; and
+the same run again is the same, bit for bit."""
+
+import random
+from functools import cache
 
 import pytest
+from here import FUZZ, SEED
 from twins import EXACT, RUNS, agree, differences, in_units, run
 
-from bent_beam import Impact
+from bent_beam import Impact, ImpactHistory
 from bent_beam.measure.balance import balance_of
 from bent_beam.measure.instant import instant
 from bent_beam.measure.moments import moments
 from bent_beam.measure.whole_impact import hits, whole_impact
 from bent_beam.meshes import UniformMesh
 from comparison.bouncing import follow_hits
+from comparison.compare import rerun_history
+from exudyn_models import ExudynModel
+from exudyn_models.contacts import Penalty
 from hermite_fe import HermiteFE
 
 OF_INSTANT = {"half_contact_length": "m", "element": "m", "reaction": "N", "impulse": "N s", "impulse_around": "N s"}
@@ -18,12 +26,18 @@ OF_INSTANT |= {"peak_moment": "N m", "moment_left_out": "N m", "peak_moment_plac
 OF_INSTANT |= {"peak_force_time": "s", "peak_force_place": "m"}
 OF_HIT = {"begin": "s", "end": "s", "place": "m", "impulse": "N s", "energy": "J", "lost": "J"}
 OF_HIT |= dict.fromkeys(("before", "after"), "m/s")
+BASES = [EXACT]
+if FUZZ:
+    RANDOM = random.Random(SEED)
+    BASES += [{unit: 4.0 ** RANDOM.randint(-15, 15) for unit in EXACT} for _ in range(6)]
+simulated = cache(run)
 
 
+@pytest.mark.parametrize("base", BASES)
 @pytest.mark.parametrize("kind", RUNS)
-def test_every_number_of_a_run_changes_with_its_unit(kind):
-    runs = run(kind), run(kind, EXACT)
-    found = differences(*runs, EXACT)
+def test_every_number_of_a_run_changes_with_its_unit(kind, base):
+    runs = simulated(kind), run(kind, base)
+    found = differences(*runs, base)
     assert {"gap", "impulse", "total_impulse", "kinetic_energy", "strain_energy"} <= found.keys()
     assert max(found.values()) < 1e-9, found
     checks = [balance_of(one) for one in runs]
@@ -31,11 +45,11 @@ def test_every_number_of_a_run_changes_with_its_unit(kind):
     assert (checks[0].momentum or 0.0) < 0.02 and checks[0].energy < 3e-3  # coarse as they are
     agree(*(moments(one) for one in runs))
     agree(*(moments(one, uniform=True) for one in runs))
-    agree(*(instant(one, 0.5 * one.time[-1]) for one in runs), OF_INSTANT)
+    agree(*(instant(one, 0.5 * one.time[-1]) for one in runs), OF_INSTANT, base)
     if not kind.startswith("expanding"):  # no whole beam
-        agree(*(whole_impact(one) for one in runs), {"supplied": "J"})
+        agree(*(whole_impact(one) for one in runs), {"supplied": "J"}, base)
         for one, other in zip(*map(hits, runs), strict=True):
-            agree(one, other, OF_HIT)
+            agree(one, other, OF_HIT, base)
 
 
 def test_hits_that_follow_change_with_their_units():
@@ -46,3 +60,21 @@ def test_hits_that_follow_change_with_their_units():
     assert len(found[0]) == 2
     for one, other in zip(*found, strict=True):
         agree(one, other, OF_HIT)
+
+
+QUICK = ("Signorini, loads of the bow", "nonsmooth generalised-α, sheared", "expanding, bare", "Exudyn")
+
+
+@pytest.mark.parametrize("kind", [k if k in QUICK else pytest.param(k, marks=pytest.mark.verify) for k in RUNS])
+def test_a_stored_history_is_enough_to_run_it_again_and_then_is_the_same_bit_for_bit(kind, tmp_path):
+    found = rerun_history(ImpactHistory.load(simulated(kind).save(tmp_path / "run.nc")))
+    assert found["identical"], found
+
+
+@pytest.mark.parametrize(("wall", "contact"), [(None, Penalty(stiffness=1e5)), (1e3, None)])
+def test_an_exudyn_run_to_separation_is_run_again_as_far_as_it_went(wall, contact):
+    method = ExudynModel(mesh=UniformMesh(1 / 16), contact=contact)
+    impact = Impact.whole_beam(2.0, relative_damping=1e-2).replace(wall_stiffness=wall)
+    history = method.simulate_to_separation(impact, save=100)
+    assert history.settings["save"][-1] == pytest.approx(history.time[-1], rel=1e-2)
+    assert rerun_history(history)["identical"]
