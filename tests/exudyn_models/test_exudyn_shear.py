@@ -3,6 +3,7 @@
 Units half length = EI = μ = V₀ = 1; l_s the shear length, g = κ_sG/E."""
 
 import exudyn as exu
+import leapfrog
 import numpy as np
 import pytest
 
@@ -17,7 +18,6 @@ from exudyn_models import ExudynModel
 from exudyn_models.assembly import assemble, lay_out
 from exudyn_models.elements import ANCFCable
 from hermite_fe import HermiteFE
-from tests import leapfrog
 
 G = 0.2
 BEAM = Impact.whole_beam(0.5, relative_damping=3e-3, shear_length=0.05, shear_ratio=G)

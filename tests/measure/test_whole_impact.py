@@ -281,9 +281,9 @@ def test_a_beam_whose_bow_opens_on_its_way_arrives_with_its_mean_velocity() -> N
     assert found.translation == pytest.approx(means[1] ** 2 / found.supplied, rel=5e-3)
 
 
-def test_a_rocking_beam_keeps_momentum_and_energy_and_one_that_hardly_rocks_is_the_half_beam() -> None:
-    impact = Impact.whole_beam(0.5, relative_damping=1e-2)
-    history = COARSE.simulate(impact.replace(rotation=0.5, first_touch=0.2), end_time=0.4, save=400)
+def test_a_rocking_beam_keeps_momentum_and_energy() -> None:
+    impact = Impact.whole_beam(0.5, relative_damping=1e-2).replace(rotation=0.5, first_touch=0.2)
+    history = COARSE.simulate(impact, end_time=0.4, save=400)
     x, velocity = history.positions(0), history.array("velocity")
     carried = np.trapezoid(velocity, x, axis=1)
     assert carried + history.array("total_impulse") == pytest.approx(2.0, abs=2e-3)
@@ -291,10 +291,6 @@ def test_a_rocking_beam_keeps_momentum_and_energy_and_one_that_hardly_rocks_is_t
     assert spin == pytest.approx(spin[0], abs=2e-3)
     assert history.array("kinetic_energy")[0] == pytest.approx(1.0 + 0.5**2 / 3.0, rel=1e-3)
     assert abs(history.energy_budget()["defect"]) < 1e-9 and history.array("gap").min() > -1e-9
-    full = COARSE.simulate(impact.replace(first_touch=1e-12), end_time=0.2, save=50)
-    half = COARSE.for_whole_beam(impact).simulate(impact, end_time=0.2, save=50)
-    assert full.dataset.attrs["symmetry"] == "full"
-    assert full.array("total_impulse")[-1] == pytest.approx(half.array("total_impulse")[-1], rel=1e-9)
     off_first = Impact.whole_beam(0.5).replace(rotation=-3.0, first_touch=0.5)
     assert "rotation" in str(HermiteFE().refuses(off_first))
 
