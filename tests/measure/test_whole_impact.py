@@ -7,10 +7,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from histories import history_of, pushed_until, rod
+from histories import history_of, pushed_until
 
 from bent_beam.as_json import json_text
-from bent_beam.cases import load_case
 from bent_beam.free_flight import LOWEST_PERIOD, Separation, cannot_return, has_left, may_return
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
@@ -88,19 +87,7 @@ def test_the_restitution_is_of_the_velocity_with_which_the_centre_of_mass_arrive
     before, after = (np.trapezoid(history.array("velocity", int(k)), x) / np.ptp(x) for k in at)
     assert first.before == pytest.approx(before, abs=5e-3) and abs(before - 1.0) > 0.05
     assert found.restitution == pytest.approx(-after / before, abs=0.01)
-
-
-def test_a_steel_rod_that_falls_on_a_wall_rebounds_with_0_63_of_its_velocity(tmp_path) -> None:
-    """Ø 20 mm × 1 m, sagitta 10 mm, damping ratio 1 %, 1 m/s, under its weight: 0.6324, 0.6298 without shear."""
-    case = load_case(rod(tmp_path, element=0.0125), ["impact.gravity=9.81"])
-    history = case.method("hermite").simulate_to_separation(case.impact)
-    found, impact = whole_impact(history), case.impact
-    assert found.left and found.restitution == pytest.approx(0.6324, abs=5e-4)
-    assert len(found.contacts) > 1 and found.separations == len(found.contacts)
     assert found.translation + found.vibration + found.dissipated == pytest.approx(1.0, abs=1e-9)
-    # momentum: what the wall gave, less what the weight took until then, is what the centre of mass has gained
-    fall = impact.acceleration * found.contacts[-1][1] * impact.slow_time_scale / impact.velocity
-    assert found.impulse == pytest.approx(2.0 * (1.0 + found.restitution + fall), rel=2e-3)
 
 
 def test_what_a_hit_loses_is_what_loads_do_not_give() -> None:
