@@ -1,18 +1,30 @@
 """The first instants of a beam on both paths: what its contact, its start and its mesh must not add."""
 
+import json
+from dataclasses import replace
 from typing import Any
 
+import numpy as np
 import pytest
 
+from benchmarks.figures.moment import FOLDER, KAPPAS, PATHS, MeasuredMoment, measure_moment
 from bent_beam import Impact, ImpactHistory, SimulationError
-from bent_beam.cases import Case
 from bent_beam.measure.moments import first_front
+from bent_beam.measure.numbers import Number
 from bent_beam.measure.reduction import peak_moment
 from bent_beam.meshes import UniformMesh
+from comparison.bouncing import case_of
 from comparison.simulating import simulate_case
 from exudyn_models import ExudynModel
-from exudyn_models.contacts import CONTACTS
+from exudyn_models.contacts import Penalty, Rigid
+from exudyn_models.elements import ANCFCable
+from exudyn_models.geometry import LinearLimit
+from exudyn_models.integrators import GeneralizedAlpha
+from exudyn_models.solvers import NewtonSolver
 from hermite_fe import HermiteFE
+from hermite_fe.far_fields import GridViscosity
+from hermite_fe.integrators import GeneralizedAlphaPenalty
+from theory import peak_moment as largest_moment
 from theory import predict
 
 BEAM = {"bending_stiffness": 1.0, "mass_per_length": 1.0, "length": 2.0, "velocity": 1.0}
@@ -23,6 +35,73 @@ def simulated(end: float, **beam: Any) -> tuple[ImpactHistory, ImpactHistory]:
     impact, methods = Impact(**BEAM, **beam), (HermiteFE(refine=0.5), ExudynModel(refine=0.5))
     hermite, exudyn = (method.simulate(impact, end_time=end, save=100) for method in methods)
     return hermite, exudyn
+
+
+@pytest.mark.parametrize(("damping", "gaps", "impulse"), [(1e-3, 1e-6, 1e-9), (1e2, 0.11, 1e-3)])
+def test_on_one_mesh_with_one_contact_law_both_codes_give_the_same_gaps_node_by_node(damping, gaps, impulse):
+    """In the linear limit an ANCF cable is the Hermite element with consistent mass; neither code knows of the other.
+
+    With next to no dashpots digit by digit. Those of Exudyn's path grip just before the wall and let go before they
+    would pull, those of the Hermite path act inside the wall alone: gaps differ by a tenth of V₀t at first, by a
+    hundredth at the end, the impulse hardly."""
+    impact, mesh, step, stiffness = Impact.dimensionless(0.5, length=10.0), UniformMesh(0.05), 2e-4, 1e4
+    springs = {"stiffness": stiffness, "damping": damping}  # per unit length of beam
+    scaled = {"relative_stiffness": stiffness * 0.05**4, "relative_damping": damping * 0.05**2}
+    hermite = HermiteFE(
+        mesh=mesh,
+        integrator=GeneralizedAlphaPenalty(step, spectral_radius=0.5, contact_rounds=20, **springs),
+        far_field=GridViscosity(viscosity=0.0),
+    )
+    exudyn = ExudynModel(
+        mesh=mesh,
+        element=ANCFCable(viscosity=0.0),
+        integrator=GeneralizedAlpha(spectral_radius=0.5, time_step=step),
+        contact=Penalty(hold_start=0.0, **scaled),
+        geometry=LinearLimit(amplitude=1e-5),
+        solver=NewtonSolver(contact_iterations=20, contact_tolerance=1e-10, initial_accelerations=False),
+    )
+    ours, theirs = (m.simulate(impact, end_time=0.1, save=np.linspace(0.0, 0.1, 26)) for m in (hermite, exudyn))
+    assert np.allclose(ours.time, theirs.time, rtol=1e-9)
+    difference = np.abs(ours.array("gap") - theirs.array("gap"))[1:] / ours.time[1:, None]  # V₀ = 1
+    assert ours.array("in_contact").any()
+    assert float(difference.max()) < gaps and float(difference[-1].max()) < 0.1 * gaps
+    assert ours.array("total_impulse")[-1] == pytest.approx(theirs.array("total_impulse")[-1], rel=impulse)
+
+
+def numbers(impact: Impact, until: float, path: str = "hermite", **more: Any) -> dict[str, Number]:
+    """What ``simulate`` says of a time, with bars, on a mesh and by parts that are chosen unless given."""
+    return simulate_case(replace(case_of(impact), **more), path, until=until).numbers
+
+
+def test_stored_moments_of_two_paths_are_within_half_a_percent_of_theory() -> None:
+    points = [MeasuredMoment(**p) for p in json.loads((FOLDER / "peak-moment.json").read_text())["points"]]
+    assert {p.kappa_over_nu for p in points} == set(KAPPAS)
+    assert len({p.label for p in points}) == len(PATHS)
+    for p in points:
+        assert p.theory == pytest.approx(largest_moment(p.kappa_over_nu).largest)
+        assert abs(p.value / p.theory - 1.0) < 0.005, p
+
+
+def test_moment_of_a_quick_run_is_that_of_theory_and_steady() -> None:
+    found = measure_moment(HermiteFE(), 0.5)
+    assert found.value == pytest.approx(found.theory, rel=0.005)
+    assert found.error < 0.01 * found.theory
+
+
+HOLLOW = Impact.whole_beam(0.4, relative_damping=1e-2).replace(wall_curvature=0.1)
+
+
+@pytest.mark.parametrize("change", [{}, {"rotation": 0.2, "first_touch": 0.05}], ids=["middle", "beside it"])
+def test_before_a_curved_wall_the_slope_is_that_of_the_deflection_and_both_paths_find_the_same_moment(change) -> None:
+    """The deflection of the beam, not what lies between it and the wall."""
+    impact, moments = HOLLOW.replace(**change), []
+    for kind in (HermiteFE, ExudynModel):
+        history = kind(mesh=UniformMesh(1 / 100)).simulate(impact, end_time=0.01, save=20)  # both halves if it rocks
+        x, slope = history.positions(-1), history.array("slope", -1)
+        deflection = -history.array("gap", -1) - 0.5 * impact.wall_curvature * (x - impact.first_touch) ** 2
+        assert np.diff(deflection) / np.diff(x) == pytest.approx(0.5 * (slope[1:] + slope[:-1]), abs=5e-4)
+        moments.append(peak_moment(history).moment)
+    assert moments[0] == pytest.approx(moments[1], rel=0.05)
 
 
 @pytest.mark.parametrize("kappa_over_nu", [1.2, pytest.param(2.5, marks=pytest.mark.verify)])
@@ -97,7 +176,7 @@ def test_few_saved_instants_move_no_front(save: list[float] | int) -> None:
 
 @pytest.mark.verify
 def test_the_start_of_a_point_contact_is_not_held_by_constraints() -> None:
-    method = ExudynModel(contact=CONTACTS["rigid"](), refine=0.5)
+    method = ExudynModel(contact=Rigid(), refine=0.5)
     history = method.simulate(Impact(**BEAM, curvature=1.2), end_time=0.002, save=50)
     assert peak_moment(history).moment == pytest.approx(1.0, rel=5e-3)
 
@@ -108,8 +187,7 @@ def test_a_zone_that_its_scheme_throws_off_the_wall_is_pushed_too_hard_and_the_b
     tables = {"hermite": {"integrator": {"kind": "moreau_jean", "theta": 1.0}}}
     found = []
     for one in (impact, impact.replace(damping=1e-3)):
-        case = Case("", one, end, UniformMesh(0.01), tables)
-        found.append(simulate_case(case, "hermite", until=end, save=60).numbers["impulse"])
+        found.append(numbers(one, end, mesh=UniformMesh(0.01), tables=tables)["impulse"])
     exact = predict(impact, [end]).times[0].impulse
     assert 0.01 * exact < abs(found[0].known - exact) < found[0].bar < 0.3 * exact
     assert found[0].parts["lift"] > 0.0 == found[1].parts["lift"]
@@ -119,7 +197,7 @@ def test_a_moment_of_the_first_instants_is_still_resolved_soon_after() -> None:
     """0.5720 at 0.0029 T*, on elements down to 1/3200 of the half beam and by a code of differences: soon after, a
     whole beam's elements and half of them agree on less."""
     impact = Impact.whole_beam(0.1467, relative_damping=1e-4).replace(wall_from=-0.06, wall_to=0.06)
-    moment = simulate_case(Case("", impact, 0.004, None, {}), "hermite", until=0.004).numbers["peak_moment"]
+    moment = numbers(impact, 0.004)["peak_moment"]
     assert abs(moment.known - 0.572) <= moment.spread < 0.01
 
 
@@ -130,8 +208,7 @@ def test_the_largest_moment_so_far_holds_that_of_a_damped_start(
 ) -> None:
     """Damping lifts the bow at first: the moment in its middle rises, at about η, to a value of κ/ν alone, and falls
     again. Elements that do not resolve it widen the bar."""
-    case = Case("", Impact.whole_beam(kappa, relative_damping=damping), end, None, {})
-    found = simulate_case(case, "hermite", until=end).numbers["peak_moment"]
+    found = numbers(Impact.whole_beam(kappa, relative_damping=damping), end)["peak_moment"]
     assert abs(found.known - peak) <= found.spread or found.known > peak
     assert end > 0.01 or found.spread < 0.01 * peak
 
@@ -141,23 +218,21 @@ def test_the_largest_moment_so_far_holds_that_of_a_damped_start(
 def test_a_zone_that_does_not_spread_as_the_root_of_time_is_as_long_as_by_another_code(path, load, half, error):
     """Hermite cubics with an active set, converged by an outsider; the pushes of a tenth of the time carried as √t are
     3 % off."""
-    case = Case("", Impact.dimensionless(0.5, length=40.0).replace(acceleration=load), 1.0, None, {})
-    found = simulate_case(case, path, until=1.0).numbers["half_contact_length"]
+    impact = Impact.dimensionless(0.5, length=40.0).replace(acceleration=load)
+    found = numbers(impact, 1.0, path)["half_contact_length"]
     assert abs(found.known - half) <= found.spread + error and found.spread < 0.04 * half
 
 
 def test_a_zone_within_few_elements_has_no_sure_length() -> None:
     """λ₀ = 0.00125 at κ/ν = 0.999, which no element of the first instants resolves."""
-    case = Case("", Impact.dimensionless(0.999), 0.1, None, {})
-    found = simulate_case(case, "hermite", until=0.1).numbers
-    exact = predict(case.impact, [0.1])
+    impact = Impact.dimensionless(0.999)
+    found, exact = numbers(impact, 0.1), predict(impact, [0.1])
     assert abs(found["lambda0"].known - exact.lambda0) <= found["lambda0"].spread < 0.02
     assert abs(found["half_contact_length"].known - exact.times[0].half_contact_length) <= found["lambda0"].spread
 
 
 def test_a_beam_off_the_wall_has_no_contact() -> None:
-    case = Case("", Impact.dimensionless(0.5, length=40.0).replace(acceleration=-0.6), 3.0, None, {})
-    found = simulate_case(case, "hermite", until=3.0).numbers
+    found = numbers(Impact.dimensionless(0.5, length=40.0).replace(acceleration=-0.6), 3.0)
     assert found["half_contact_length"].value is None and found["reaction"].known == 0.0
 
 
@@ -166,6 +241,6 @@ def test_a_penalty_that_is_chosen_suits_the_run(time: float) -> None:
     """In units of t*: a front at 1e-3 t* is ten times thinner than at 0.1 t*."""
     tables = {"hermite": {"integrator": {"kind": "generalized_alpha_penalty"}}}
     impact = Impact.dimensionless(0.5)
-    found, exact = simulate_case(Case("", impact, time, None, tables), "hermite", until=time), predict(impact, [time])
-    assert found.numbers["impulse"].known == pytest.approx(exact.times[0].impulse, rel=0.01)
-    assert found.numbers["half_contact_length"].known == pytest.approx(exact.times[0].half_contact_length, rel=0.02)
+    found, exact = numbers(impact, time, tables=tables), predict(impact, [time]).times[0]
+    assert found["impulse"].known == pytest.approx(exact.impulse, rel=0.01)
+    assert found["half_contact_length"].known == pytest.approx(exact.half_contact_length, rel=0.02)

@@ -13,10 +13,11 @@ from here import CASES
 from histories import rod
 
 from bent_beam import Impact
-from bent_beam.cases import Case, case_from_tables, load_case
+from bent_beam.cases import case_from_tables, load_case
 from bent_beam.measure.numbers import Number
 from bent_beam.meshes import UniformMesh
 from comparison import predicting
+from comparison.bouncing import case_of
 from comparison.doubts import doubts
 from comparison.predicting import CHECKED, COMPARED, LATEST, predict_case
 from comparison.readable import number_from
@@ -26,10 +27,6 @@ from theory import predict
 from theory.stopped_beam import StoppedBeam
 
 PIPE = CASES / "drill_pipe.toml"
-
-
-def case_of(impact: Impact) -> Case:
-    return Case(title="", impact=impact, end_time=1.0, mesh=None, tables={})
 
 
 def agrees(row: dict[str, Any], name: str) -> bool:
