@@ -6,28 +6,23 @@ from pathlib import Path
 
 import pytest
 from called import answered, command
-from here import CASES, ROOT
+from fences import snippet
+from here import CASES
 
 from bent_beam import method
 
-PAGE = (ROOT / "docs" / "guide" / "add-method.md").read_text(encoding="utf-8")
+PAGE = "guide/add-method.md"
 LABEL = "Finite differences, fine"
-
-
-def fence(start: str) -> str:
-    found = re.search(rf"^```{re.escape(start)}\n(.*?)^```", PAGE, re.S | re.M)
-    assert found is not None, start
-    return found[1]
 
 
 @pytest.fixture(autouse=True)
 def installed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """The package of the page: its module and what a wheel says of it."""
-    (tmp_path / "differences.py").write_text(fence('python title="differences.py"'), encoding="utf-8")
+    (tmp_path / "differences.py").write_text(snippet(PAGE, 'title="differences.py"'), encoding="utf-8")
     about = tmp_path / "differences-1.0.dist-info"
     about.mkdir()
     (about / "METADATA").write_text("Metadata-Version: 2.1\nName: differences\nVersion: 1.0\n")
-    group, line = re.findall(r'entry-points\."(.+)"\]\n(.+)', PAGE)[0]
+    group, line = re.findall(r'entry-points\."(.+)"\]\n(.+)', snippet(PAGE, "entry-points"))[0]
     (about / "entry_points.txt").write_text(f"[{group}]\n{line.replace(chr(34), '')}\n")
     monkeypatch.syspath_prepend(tmp_path)
     monkeypatch.chdir(tmp_path)
@@ -53,7 +48,7 @@ def test_simulate_takes_its_settings() -> None:
 
 @pytest.mark.verify
 def test_refine_gives_a_row_for_each_resolution_of_the_page_s_list() -> None:
-    Path("mine.toml").write_text("[[method]]\n" + fence("toml\n[[method]]"), encoding="utf-8")
+    Path("mine.toml").write_text(snippet(PAGE, f'label = "{LABEL}"'), encoding="utf-8")
     words = ("--methods", "mine.toml", "--kappa-over-nu", "0.5", "--refine", "0.25,0.5", "--out", "out")
     rows = answered("match", *words)["rows"]
     assert [(row["label"], row["refine"]) for row in rows] == [(LABEL, 0.25), (LABEL, 0.5)]

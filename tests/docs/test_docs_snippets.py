@@ -9,9 +9,10 @@ import re
 import shlex
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import pytest
+from fences import FENCE, blocks
 from here import CASES, ROOT
 
 from bent_beam import Impact, ImpactHistory, load_case
@@ -25,24 +26,6 @@ from theory import contact_parameters, peak_moment, predict
 GENERATED = re.compile(r"(?:^|/)(?:settings|api/\w+)\.md")  # by docs/tools/generated.py
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
 NOT_RUN = re.compile("not run|no-run")
-FENCE = re.compile(r"^```(?P<info>[^\n`]*)\n(?P<body>.*?)^```\s*$", re.S | re.M)
-
-
-class Block(NamedTuple):
-    """A fenced block: language, the rest of its info line, text."""
-
-    language: str
-    options: str
-    body: str
-
-    @property
-    def is_long(self) -> bool:
-        return "make verify" in self.options
-
-
-def blocks(page: Path) -> list[Block]:
-    found = FENCE.finditer(page.read_text(encoding="utf-8"))
-    return [Block(*match["info"].strip().partition(" ")[::2], match["body"]) for match in found]
 
 
 def commands(body: str) -> list[list[str]]:

@@ -1,14 +1,13 @@
 """Every integrator, that of the guide too, on a bouncing ball, an oscillator against a stop, two masses."""
 
 import math
-import re
 from functools import partial
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 import pytest
-from here import ROOT
+from fences import snippet
 from hermite_parts import ALL, DROP, FIRST_ORDER, GRAVITY, WITH_IMPACT_LAW, Make, ball, chain, oscillator
 
 from bent_beam import Impact, SimulationError
@@ -21,17 +20,17 @@ from hermite_fe.run import Trajectory, integrate
 from hermite_fe.system import ContactRows, System
 from theory.ladder import BouncingBall
 
-GUIDE = ROOT / "docs/guide/add-integrator.md"
+GUIDE = "guide/add-integrator.md"
 PUSHED = [[1.0, 2.0], [0.5, -0.3]]  # load of the chain
 START = np.array([0.5, -0.2]), np.array([0.0, 1.0])
 
 
 def guide_integrator() -> Any:
     """The class that the guide writes, from the guide."""
-    code = re.search(r"^```python\n(.*?)^```", GUIDE.read_text(encoding="utf-8"), re.S | re.M)
-    assert code is not None and len(code[1].splitlines()) <= 45
+    code = snippet(GUIDE, "class NewmarkProjection")
+    assert len(code.splitlines()) <= 45
     space: dict[str, Any] = {"__name__": "guide"}
-    exec(compile(code[1], str(GUIDE), "exec", dont_inherit=True), space)
+    exec(compile(code, GUIDE, "exec", dont_inherit=True), space)
     return space["NewmarkProjection"]
 
 

@@ -5,7 +5,7 @@ import subprocess
 import sys
 
 import pytest
-from here import ROOT
+from fences import snippet
 
 from bent_beam_programs.open_benchmark.adapter import chosen_adapters
 from bent_beam_programs.open_benchmark.campaign import campaign
@@ -13,17 +13,11 @@ from bent_beam_programs.open_benchmark.reading import load_result
 from bent_beam_programs.open_benchmark.running import Limits
 from bent_beam_programs.open_benchmark.score import score
 
-DOCS = ROOT / "docs"
-
-
-def snippet(name, page="guide/enter.md"):
-    found = re.search(rf'^```python title="{name}"\n(.*?)^```', (DOCS / page).read_text(), re.S | re.M)
-    assert found, name
-    return found[1]
+PAGE = "guide/enter.md"
 
 
 def test_the_sixty_lines_converge(tmp_path):
-    source = snippet("mine.py")
+    source = snippet(PAGE, 'title="mine.py"')
     assert len([line for line in source.splitlines() if line.strip()]) <= 60
     assert not re.search(r"import (?!json|sys|time|tomllib|numpy)", source)
     file = tmp_path / "mine.py"
@@ -38,7 +32,7 @@ def test_the_sixty_lines_converge(tmp_path):
 
 
 def test_a_table_is_scored(tmp_path):
-    subprocess.run([sys.executable, "-c", snippet("from_table.py")], cwd=tmp_path, check=True)
+    subprocess.run([sys.executable, "-c", snippet(PAGE, 'title="from_table.py"')], cwd=tmp_path, check=True)
     found = score(load_result(tmp_path / "result.csv"))
     assert found.outcome == "completed" and found.error("r0") == pytest.approx(0.0, abs=1e-9)
 
@@ -46,7 +40,7 @@ def test_a_table_is_scored(tmp_path):
 def test_capturing_steps_use_up_their_repetitions_and_do_not_with_the_fix():
     """The reproducer for Exudyn's authors: short, on its own, and it still shows what the page says."""
     space = {"__name__": "reproducer"}
-    exec(snippet("contact_state.py", "exudyn_contact_state.md"), space)
+    exec(snippet("exudyn_contact_state.md", "contact_state.py"), space)
     run = space["run"]
     (steps, before, exhausted, _), (again, after, left, contradictory) = run(False), run(True)
     assert steps == again == 400
