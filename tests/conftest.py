@@ -19,6 +19,7 @@ settings.register_profile(
     suppress_health_check=list(HealthCheck),
 )
 settings.load_profile("tests")
+pytest_plugins = ["chromium"]  # its fixture
 COMPILED = ("nonsmooth_generalized_alpha", "generalized_alpha_penalty", "signorini_position", "midpoint",
             "massless_boundary", "hysteretic")  # fmt: skip
 if "PYTEST_XDIST_WORKER" not in os.environ:  # workers inherit it

@@ -7,9 +7,9 @@ import subprocess
 import sys
 import tomllib
 from functools import cache
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
+from here import ROOT
+
 PATHS = ("theory", "hermite_fe", "self_similar_fe", "exudyn_models")
 PROGRAMS = ("thesis", "report", "predictor", "open_benchmark")
 FLOOR = {

@@ -10,9 +10,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from chromium import ask, disquiet, needs_chromium, opened
 from here import ROOT
-
-from tests.chromium import ask, chromium, disquiet, needs_chromium, opened  # noqa: F401
 
 BUILDERS = ("mkdocs", "quickjax", "mkdocs_jupyter", "mkdocstrings")
 NOT_PROSE = "pre, code, .highlight, .formula, script, style, .clipboard-copy-txt, .zeroclipboard-container"
@@ -39,7 +38,7 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.parametrize("width", [1400, 390])
-def test_every_page_keeps_to_its_width_and_to_itself_and_shows_no_markup(chromium: Any, site: Path, width: int) -> None:  # noqa: F811
+def test_every_page_keeps_to_its_width_and_to_itself_and_shows_no_markup(chromium: Any, site: Path, width: int) -> None:
     """No LaTeX; and two stars of a sentence (t*, T*) would become emphasis of what stands between them."""
     pages = [page for page in sorted(site.rglob("*.html")) if page.name != "404.html"]  # the latter is for a server
     assert len(pages) > 15
@@ -58,7 +57,7 @@ def test_every_page_keeps_to_its_width_and_to_itself_and_shows_no_markup(chromiu
 
 @pytest.mark.parametrize("width", [1400, 390])
 @pytest.mark.parametrize(("page", "least"), [("theory.html", 190), ("tutorial.html", 15)])
-def test_formulas_are_drawn(chromium: Any, site: Path, page: str, least: int, width: int) -> None:  # noqa: F811
+def test_formulas_are_drawn(chromium: Any, site: Path, page: str, least: int, width: int) -> None:
     """Each has a size, and the screenshot of a formula holds its ink."""
     from PIL import Image
 

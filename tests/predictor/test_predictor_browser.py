@@ -6,11 +6,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from chromium import ask, assert_quiet, beyond_the_edge, needs_chromium, opened
 
 from bent_beam.cases import load_case
 from bent_beam_programs.predictor.page import write_page
 from comparison.bouncing import bounce
-from tests.chromium import ask, assert_quiet, beyond_the_edge, chromium, needs_chromium, opened  # noqa: F401
 from theory import contact_parameters
 
 pytestmark = needs_chromium
@@ -22,7 +22,7 @@ def address(tmp_path_factory: pytest.TempPathFactory) -> str:
 
 
 @pytest.fixture
-def browser(chromium: Any, address: str) -> Any:  # noqa: F811
+def browser(chromium: Any, address: str) -> Any:
     return opened(chromium, address)
 
 
@@ -57,7 +57,7 @@ def simulated(browser: Any) -> Any:
 
 
 @pytest.mark.parametrize("width", [390, 1400])
-def test_loads_without_errors_or_requests_and_nothing_overflows_or_covers(chromium, address, width):  # noqa: F811
+def test_loads_without_errors_or_requests_and_nothing_overflows_or_covers(chromium, address, width):
     browser = simulated(opened(chromium, address, width))
     assert_quiet(browser)
     assert beyond_the_edge(browser, "#predictor *") == []
@@ -97,7 +97,7 @@ def test_what_is_typed_decides_and_mistakes_are_named_beside_their_field(browser
     assert ask(browser, "document.getElementById('answer').offsetParent !== null")
 
 
-def test_damping_has_three_states(chromium: Any, address: str) -> None:  # noqa: F811
+def test_damping_has_three_states(chromium: Any, address: str) -> None:
     browser = simulated(opened(chromium, address + "#damping_ratio="))
     curves = "document.querySelectorAll('#plot-stress .curve').length"
     assert ask(browser, curves) == 3 and "0.02 %" in shown(browser, "dampings")
@@ -137,7 +137,7 @@ def test_keyboard_alone_reaches_and_moves_everything(browser: Any) -> None:
     assert after[0] != before[0] and after[1] != before[1]
 
 
-def test_a_link_carries_the_case_and_units_are_a_matter_of_display(chromium: Any, address: str) -> None:  # noqa: F811
+def test_a_link_carries_the_case_and_units_are_a_matter_of_display(chromium: Any, address: str) -> None:
     from selenium.webdriver.common.keys import Keys
 
     browser = opened(chromium, address)
@@ -156,7 +156,7 @@ def test_a_link_carries_the_case_and_units_are_a_matter_of_display(chromium: Any
     assert shown(strange, "case") == before
 
 
-def test_a_case_is_saved_and_opened(chromium: Any, address: str, tmp_path: Path) -> None:  # noqa: F811
+def test_a_case_is_saved_and_opened(chromium: Any, address: str, tmp_path: Path) -> None:
     """As a newcomer does it: type, save, hand the file to the library; and open the file of somebody else."""
     browser = opened(chromium, address)
     browser.execute_cdp_cmd("Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": str(tmp_path)})

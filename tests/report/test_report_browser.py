@@ -3,8 +3,7 @@
 from typing import Any
 
 import pytest
-
-from tests.chromium import ask, assert_quiet, beyond_the_edge, chromium, needs_chromium, opened  # noqa: F401
+from chromium import ask, assert_quiet, beyond_the_edge, needs_chromium, opened
 
 pytestmark = needs_chromium
 
@@ -15,7 +14,7 @@ def address(written: Any) -> str:
 
 
 @pytest.fixture(scope="module")
-def browser(chromium: Any, address: str) -> Any:  # noqa: F811
+def browser(chromium: Any, address: str) -> Any:
     return opened(chromium, address, 390)
 
 
