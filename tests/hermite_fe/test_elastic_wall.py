@@ -1,5 +1,5 @@
-"""A wall that gives way: springs that never pull, over partly covered elements, and a stop. Held ends, plates and rigid
-stops of both paths: ``exudyn_models/test_exudyn_supports.py``."""
+"""A wall that gives way: springs that never pull, over partly covered elements, and a stop. Held ends stand in
+``test_shear.py``, plates and rigid stops of both paths in ``exudyn_models/test_exudyn_supports.py``."""
 
 import numpy as np
 import pytest
