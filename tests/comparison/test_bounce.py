@@ -167,7 +167,8 @@ def test_runs_whose_processes_die_are_told_and_one_that_is_left_is_no_band() -> 
     assert found.numbers["restitution"].value is None
 
 
-def test_bounce_json_is_the_document_that_was_printed(tmp_path) -> None:
+def test_bounce_json_is_the_document_that_was_printed(tmp_path, monkeypatch) -> None:
+    monkeypatch.setattr("comparison.figures.history.FRAMES", 2)
     each = [f"{path}.mesh={{kind='uniform', element_length=0.1}}" for path in ("hermite", "exudyn")]
     both = ("--path", "hermite", "--path", "exudyn", "--damping", "0.01", "--set", each[0], "--set", each[1])
     printed = answered("bounce", "--kappa-over-nu", "2", *both, "--out", tmp_path / "out")

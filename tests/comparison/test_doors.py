@@ -78,7 +78,8 @@ def test_every_door_warns_of_a_steep_bow(tmp_path: Path) -> None:
     file = tmp_path / "bow.toml"
     for unit, steep in ((2.0, True), (1.0, False)):
         file.write_text(f"[beam]\nbending_stiffness = {unit}\nmass_per_length = 1.0\nlength = 2.0\ncurvature = 1.0\n"
-                        "damping_ratio = 0.05\n[impact]\nvelocity = 1.0\n[hermite]\nrefine = 0.25\n")  # fmt: skip
+                        "damping_ratio = 0.05\n[impact]\nvelocity = 1.0\n"
+                        "[mesh]\nkind = 'uniform'\nelement_length = 0.1\n")  # fmt: skip
         case = load_case(file)
         doors = predict(case, 0.01), bounce(case), simulate_case(case, "hermite", until=0.01)
         for found in doors:
