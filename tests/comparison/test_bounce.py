@@ -17,11 +17,11 @@ from bent_beam.free_flight import has_left
 from bent_beam.history import ImpactHistory
 from bent_beam.measure.numbers import Band, Number
 from bent_beam.meshes import UniformMesh
-from bent_beam.method import method_from_tables
 from comparison.bouncing import bounce, case_of, follow_hits, problem, whole_reading
 from comparison.questions import Question
 from comparison.runs import runs_of
 from comparison.store import RunStore
+from exudyn_models import ExudynModel
 from hermite_fe import HermiteFE
 from hermite_fe.contacts import MiddleContact
 from hermite_fe.integrators import SignoriniPosition
@@ -29,10 +29,9 @@ from hermite_fe.integrators import SignoriniPosition
 COARSE = HermiteFE(mesh=UniformMesh(1.0 / 25))
 
 
-@pytest.mark.parametrize(("path", "elements", "widest"), [("hermite", 25, 0.02), ("exudyn", 20, 0.03)])
+@pytest.mark.parametrize(("path", "elements", "widest"), [(HermiteFE, 25, 0.02), (ExudynModel, 20, 0.03)])
 def test_error_bars_of_a_bounce_hold_the_converged_value(path, elements, widest) -> None:
-    method = dataclasses.replace(method_from_tables(path, {}), mesh=UniformMesh(1.0 / elements))
-    found = bounce(problem(0.5, 1e-2), method, save=500)
+    found = bounce(problem(0.5, 1e-2), path(mesh=UniformMesh(1.0 / elements)), save=500)
     restitution = found.numbers["restitution"]
     assert set(restitution.parts) == {"mesh_and_step", "contact_law", "saved_instants"}
     assert restitution.bar == sum(restitution.parts.values())

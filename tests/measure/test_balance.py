@@ -1,7 +1,5 @@
 """Momentum, initial energy and gaps of pushes, from the state of a run: a falsified run shows."""
 
-import dataclasses
-
 import numpy as np
 import pytest
 from histories import history_of
@@ -10,7 +8,6 @@ from bent_beam import Impact, ImpactHistory
 from bent_beam.measure.balance import balance_of
 from bent_beam.measure.reduction import peak_moment
 from bent_beam.meshes import UniformMesh
-from bent_beam.method import for_whole_beam, method_from_tables
 from exudyn_models import ExudynModel
 from exudyn_models.integrators import GeneralizedAlpha
 from hermite_fe import HermiteFE
@@ -83,21 +80,20 @@ def test_a_bend_that_nothing_holds_later_is_let_go_on_both_paths() -> None:
     """q₀ = 1: the wall's impulse at 0.1, 0.3 and 0.5 T*."""
     bent = Impact.whole_beam(2.0, relative_damping=1e-2).replace(fourth_derivative=1.0)
     given = []
-    for path in ("hermite", "exudyn"):
-        method = dataclasses.replace(method_from_tables(path, {}), mesh=UniformMesh(1.0 / 40))
-        history = for_whole_beam(method, bent).simulate(bent, end_time=0.5, save=100)
+    for path in (HermiteFE, ExudynModel):
+        history = path(mesh=UniformMesh(1.0 / 40)).for_whole_beam(bent).simulate(bent, end_time=0.5, save=100)
         given.append(np.interp([0.1, 0.3, 0.5], history.time, history.array("total_impulse")))
     assert given[1] == pytest.approx(given[0], rel=0.01)
 
 
-@pytest.mark.parametrize("path", ["hermite", "exudyn"])
+@pytest.mark.parametrize("path", [HermiteFE, ExudynModel])
 def test_tension_along_the_axis_moves_no_centre_of_mass_and_the_largest_moment_is_that_of_all_steps(path):
     """Forces along the bow's ends take −NKL t; forces along x take nothing: the wall gives all that the beam gains."""
     impact = Impact.whole_beam(0.5, relative_damping=1e-2).replace(axial_force=3.0, acceleration=-1.5)
-    method = dataclasses.replace(method_from_tables(path, {}), mesh=UniformMesh(1.0 / 20))
+    method = path(mesh=UniformMesh(1.0 / 20)).for_whole_beam(impact)
     for direction, drawn in (("axis", 0.0), ("tangent", -1.5)):
         turned = impact.replace(tension_direction=direction)
-        runs = [for_whole_beam(method, turned).simulate(turned, end_time=0.2, save=save) for save in (10, 100)]
+        runs = [method.simulate(turned, end_time=0.2, save=save) for save in (10, 100)]
         for history in runs:
             v, x = history.array("velocity", -1), history.positions(0)
             gained = 2.0 * float(np.trapezoid(v, x)) - 2.0

@@ -15,7 +15,7 @@ from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.measure.whole_impact import hits, peak_times, pushes, whole_impact
 from bent_beam.meshes import UniformMesh
-from bent_beam.method import for_whole_beam, method_from_tables
+from exudyn_models import ExudynModel
 from hermite_fe import HermiteFE
 from hermite_fe.integrators import MoreauJean, NonsmoothGeneralizedAlpha, SignoriniPosition
 from theory.stopped_beam import StoppedBeam
@@ -282,19 +282,18 @@ def test_a_rocking_beam_keeps_momentum_and_energy() -> None:
     assert "rotation" in str(HermiteFE().refuses(off_first))
 
 
-def between_walls(path: str, elements: int, kappa: float, damping: float, distance: float, end: float) -> ImpactHistory:
+def between_walls(path: Any, elements: int, kappa: float, damping: float, distance: float, end: float) -> ImpactHistory:
     impact = Impact.whole_beam(kappa, relative_damping=damping).replace(opposite_wall=distance)
-    method = dataclasses.replace(method_from_tables(path, {}), mesh=UniformMesh(1.0 / elements))
-    times = np.linspace(0.0, end, round(400 * end) + 1)[1:]
-    return for_whole_beam(method, impact).simulate(impact, end_time=end, save=times)
+    method = path(mesh=UniformMesh(1.0 / elements)).for_whole_beam(impact)
+    return method.simulate(impact, end_time=end, save=np.linspace(0.0, end, round(400 * end) + 1)[1:])
 
 
 @pytest.mark.parametrize(
     ("path", "asked", "least", "closes"),
     [
-        ("hermite", (20, 0.5, 1e-2, 0.6, 6.0), 3, 1e-9),
-        pytest.param("hermite", (40, 1.5, 1e-3, 1.0, 60.0), 10, 1e-6, marks=slow),
-        pytest.param("exudyn", (10, 1.5, 1e-3, 1.0, 80.0), 10, 1e-3, marks=slow),
+        (HermiteFE, (20, 0.5, 1e-2, 0.6, 6.0), 3, 1e-9),
+        pytest.param(HermiteFE, (40, 1.5, 1e-3, 1.0, 60.0), 10, 1e-6, marks=slow),
+        pytest.param(ExudynModel, (10, 1.5, 1e-3, 1.0, 80.0), 10, 1e-3, marks=slow),
     ],
 )
 def test_each_hit_between_two_walls_gives_the_beam_its_impulse(path, asked, least, closes):
@@ -307,7 +306,7 @@ def test_each_hit_between_two_walls_gives_the_beam_its_impulse(path, asked, leas
         assert 2.0 * (now - before) == pytest.approx(sign * hit.impulse, rel=1e-6, abs=1e-9)
         assert hit.lost > -1e-9
     assert sum(hit.lost for hit in found) < 1.0 and abs(history.energy_budget()["defect"]) < closes
-    if path == "hermite":
+    if path is HermiteFE:
         gap = history.array("gap")
         assert (gap.min(), gap.max()) == pytest.approx((0.0, history.impact.opposite_wall), abs=5e-3)
 
@@ -315,7 +314,7 @@ def test_each_hit_between_two_walls_gives_the_beam_its_impulse(path, asked, leas
 @slow
 def test_both_paths_give_the_first_hits_between_two_walls_alike() -> None:
     """Later ones are not comparable: which part of a vibrating beam meets a wall when is chaotic."""
-    hermite, exudyn = (hits(between_walls(path, 50, 1.5, 1e-2, 1.0, 6.0))[:3] for path in ("hermite", "exudyn"))
+    hermite, exudyn = (hits(between_walls(path, 50, 1.5, 1e-2, 1.0, 6.0))[:3] for path in (HermiteFE, ExudynModel))
     for one, other in zip(hermite, exudyn, strict=True):
         assert one.wall == other.wall and one.impulse == pytest.approx(other.impulse, rel=5e-3)
         assert (one.after, one.lost) == pytest.approx((other.after, other.lost), abs=5e-3)
