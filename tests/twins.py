@@ -115,9 +115,7 @@ def run(kind: str, base: Mapping[str, float] | None = None) -> ImpactHistory:
     return made.simulate(impact, end_time=end, save=60)
 
 
-def agree(
-    one: Any, other: Any, units: Mapping[str, str] = {}, base: Mapping[str, float] = EXACT, within: float = 1e-9
-) -> None:
+def agree(one: Any, other: Any, units: Mapping[str, str] = {}, base: Mapping[str, float] = EXACT) -> None:
     """``other``, attribute by attribute and part by part, is ``one`` times its unit; what has none in ``units`` is the
     same number."""
     for name, value in vars(one).items():
@@ -128,10 +126,10 @@ def agree(
         parts = value if isinstance(value, tuple) else (value,)
         if parts and is_dataclass(parts[0]):
             for part, its in zip(parts, theirs if isinstance(value, tuple) else (theirs,), strict=True):
-                agree(part, its, units, base, within)
+                agree(part, its, units, base)
         elif isinstance(value, (float, tuple, np.ndarray)):
             wanted = np.asarray(value, float) * unit
-            near = within * max(np.abs(wanted).max(initial=0.0), unit)
+            near = 1e-9 * max(np.abs(wanted).max(initial=0.0), unit)
             assert np.asarray(theirs) == pytest.approx(wanted, rel=0.0, abs=near), name
         else:
             assert theirs == value, name

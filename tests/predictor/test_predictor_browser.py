@@ -1,6 +1,5 @@
 """The page in headless Chromium: what it simulates and says, by keyboard, on a phone, from a link, from a case file."""
 
-import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -163,10 +162,8 @@ def test_a_case_is_saved_and_opened(chromium: Any, address: str, tmp_path: Path)
     type_into(browser, "velocity", "5")
     type_into(browser, "tension", "20")
     browser.find_element("id", "save").click()
-    file, waited = tmp_path / "impact.toml", 0
-    while not file.exists() and (waited := waited + 1) < 100:
-        time.sleep(0.05)
-    impact = load_case(file).impact
+    until(browser, (tmp_path / "impact.toml").exists)
+    impact = load_case(tmp_path / "impact.toml").impact
     assert impact.velocity == 5.0 and impact.axial_force == 20e3
     for name, note in (("drill_pipe", "is read"), ("two_walls", "beam.bending_stiffness is not on this page")):
         browser.find_element("id", "open").send_keys(str(Path(f"cases/{name}.toml").resolve()))
