@@ -22,17 +22,17 @@ SHORT = Impact.dimensionless(0.5, length=40.0)
 
 @pytest.mark.parametrize(
     ("curvature", "lambda0", "r0"),
-    [(2.0, 4.25760478009, 2.74499113477), (25.0, 0.0, 1.0)],  # κ/ν = 0.1; one point, that bears ν
+    [(4.0, 4.25760478009, 2.74499113477), (50.0, 0.0, 1.0)],  # κ/ν = 0.1; one point, that bears ν
 )
 def test_auto_finds_the_leading_order_of_a_case_in_si_units(curvature, lambda0, r0):
-    history = simulate(Impact(1.0, 1.0, 50.0, curvature, 20.0))
+    history = simulate(Impact(2.0, 8.0, 50.0, curvature, 20.0))  # t* = 1.25 ms, l* = 25 mm
     assert history.warnings == [] and history.completed
     found = leading_order(moments(history))
     assert found.r0.value == pytest.approx(r0, rel=1e-3)
     assert found.lambda0.value == pytest.approx(lambda0, rel=1e-3)
-    assert history.time[-1] == pytest.approx(2.5e-4)
-    inside = history.dataset.x.values < 0.9 * lambda0 * math.sqrt(0.1) * 0.05
-    assert np.abs(history.array("gap")[-1][inside]).max(initial=0.0) < 2e-3 * 20.0 * 2.5e-4
+    assert history.time[-1] == pytest.approx(1.25e-4)
+    inside = history.dataset.x.values < 0.9 * lambda0 * math.sqrt(0.1) * 0.025
+    assert np.abs(history.array("gap")[-1][inside]).max(initial=0.0) < 2e-3 * 20.0 * 1.25e-4
     assert (history.array("in_contact").sum(axis=1).max() == 1) == (lambda0 == 0.0)
 
 
