@@ -47,7 +47,7 @@ verify: $(STAMP)
 	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal -m verify
 
 fuzz: $(STAMP)
-	FUZZ=1 $(BIN)/python -m pytest -n $(JOBS) --dist worksteal tests/reliability
+	FUZZ=1 $(BIN)/python -m pytest -n $(JOBS) --dist worksteal tests/reliability tests/comparison/test_twins.py tests/theory/test_theory_twins.py
 
 bench: $(STAMP)
 	$(BIN)/python -m benchmarks

@@ -69,7 +69,10 @@ class _ImpactTable(Part):
 
     velocity: Annotated[float | None, of_impact("velocity")] = None
     drop_height: Annotated[
-        float | None, Quantity("m", "fallen from rest, instead of the velocity: V₀ = √(2gh)", above=0.0)
+        float | None,
+        Quantity(
+            "m", "fallen from rest along the wall's normal, instead of the velocity: V₀ = √(2gh cos θ)", above=0.0
+        ),
     ] = None
     angular_speed: Annotated[
         float | None, Quantity("rad/s", "swinging about its hinge, or on arms, instead of the velocity", above=0.0)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -98,6 +98,12 @@ class Bounce:
         """The numbers in SI units, and the largest stress (:func:`with_stress`)."""
         unit = self.units
         found = {name: n.scaled(unit.get(WHOLE[name].scale, 1.0)) for name, n in self.numbers.items()}
+        # a later last contact has loads work longer: what energies in J are shares of is no surer
+        late = abs(self.outcome.supplied_rate) * (self.numbers["last_contact"].bar or 0.0)
+        for name, n in found.items():
+            if late and WHOLE[name].scale == "energy" and n.bar is not None:
+                parts = {**n.parts, "work_of_loads": late * abs(n.known)}
+                found[name] = replace(n, bar=n.bar + parts["work_of_loads"], parts=parts)
         return with_stress(found, self.case)
 
     @property
@@ -199,14 +205,14 @@ class Bounce:
 
         return impact_figure(self.history, self.case, self.in_si, self._shown_until)
 
-    def write(self, out: Path, document: dict[str, Any] | None = None) -> list[Path]:
+    def write(self, out: str | Path, document: dict[str, Any] | None = None) -> list[Path]:
         """``bounce.json``, ``bounce.png`` and the animation ``bounce.gif`` in ``out``; returns the files.
 
         document : with what a command adds to :meth:`to_dict`.
         """
         from comparison.figures.history import animate
 
-        film = animate(self.history, out / "bounce.gif", self._shown_until)
+        film = animate(self.history, Path(out) / "bounce.gif", self._shown_until)
         return [*write_answer(self, out, "bounce", document=document), film]
 
     @property

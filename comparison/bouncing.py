@@ -9,11 +9,13 @@ the largest stress.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
 from bent_beam import Case, Impact, ImpactHistory, InputError, load_case
+from bent_beam.cases import case_from_tables
 from bent_beam.checks import finite
 from bent_beam.free_flight import LOWEST_PERIOD, may_return
 from bent_beam.hysteresis import converges
@@ -30,7 +32,7 @@ from comparison.whole_numbers import FINAL, NUMBERS
 
 __all__ = ["DAMPING_RATIOS", "bounce", "case_of", "follow_hits", "problem", "whole_numbers", "whole_reading"]
 
-Beam = Case | Impact | str | Path
+Beam = Case | Impact | str | Path | Mapping[str, Any]
 TIMES = ("last_contact", "peak_moment_time")
 RUNS = 24  # of a band
 SEED = 15
@@ -54,12 +56,12 @@ def whole_reading(history: ImpactHistory) -> dict[str, Any]:
 
 
 def case_of(beam: Beam) -> Case:
-    """A case, or that of a file, or of an impact whose damping is as it says. Raises ``InputError``."""
+    """A case, or that of a file or its tables, or of an impact whose damping is as it says. Raises ``InputError``."""
     if isinstance(beam, Case):
         return beam
     if isinstance(beam, Impact):
         return Case(title="", impact=beam, end_time=beam.checked_end_time(), mesh=None, tables={})
-    return load_case(beam)
+    return case_from_tables(beam) if isinstance(beam, Mapping) else load_case(beam)
 
 
 def bounce(
@@ -123,6 +125,7 @@ def whole_numbers(made: Runs) -> dict[str, Number | Band]:
     known |= {name: {"saved_instants": change} for name, change in reading["drift"].items()}
     known["push"] = {"saved_instants": reading["push_rise"]}
     known["last_contact"]["contacts"] = _shifted(made)
+    known["peak_moment_place"] = {"element": reading["element"]}
     known["peak_moment"] = unseen_of_moment(made)
     if not made.question.band:
         known["last_contact"]["returns"] = _may_return(made, numbers_of(made, ("restitution",), known)["restitution"])

@@ -15,6 +15,7 @@ from scipy.interpolate import CubicHermiteSpline
 from bent_beam import ImpactHistory, InputError
 from bent_beam.checks import finite, whole
 from bent_beam.fields import part_from_table
+from bent_beam.measure.instant import so_far
 from bent_beam.measure.reduction import peak_moment
 from bent_beam.method import Method, method_type
 from bent_beam.versions import versions
@@ -43,11 +44,12 @@ def compare_histories(a: ImpactHistory, b: ImpactHistory) -> dict[str, Any]:
     lengths = (2.0 / h.sides * float(np.ptp(h.positions(0))) for h in (a, b))
     if not math.isclose(*lengths, rel_tol=1e-6):  # each models another part of the beam
         apart["kinetic_energy"] = None
-    numbers["peak_moment"] = [peak_moment(h, until=end).moment for h in (a, b)]
+    numbers["peak_moment"] = [so_far(peak_moment, h, end, "moment", jumps=True).moment for h in (a, b)]
     apart["gap"] = _gap_apart(a, b, end)
     return {
         "paths": [a.path, b.path],
         "same_impact": a.impact == b.impact,
+        "impact": _apart(vars(a.impact), vars(b.impact)),
         "end": numbers,
         "largest_difference": apart,
         "settings": _apart(a.settings, b.settings),
@@ -111,8 +113,8 @@ def comparison_text(found: dict[str, Any], first: str, second: str) -> str:
         "have no difference.",
         "The two impacts are the same." if found["same_impact"] else "The two impacts differ.",
     ]
-    changed = [row for part in ("settings", "versions") for row in _changed(found[part])]
-    return "\n".join([*lines, "", text_table(["setting or version", first, second], changed)] if changed else lines)
+    changed = [row for part in ("impact", "settings", "versions") for row in _changed(found[part])]
+    return "\n".join([*lines, "", text_table(["what differs", first, second], changed)] if changed else lines)
 
 
 def _changed(pairs: dict[str, Any], where: str = "") -> list[list[str]]:

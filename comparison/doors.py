@@ -12,7 +12,7 @@ import numpy as np
 
 from bent_beam import InputError
 from bent_beam.cases import Case, holds, lay_over, lay_values, read_toml
-from bent_beam.checks import shortened
+from bent_beam.checks import finite, shortened
 from bent_beam.files import write_atomically, write_dataset
 from bent_beam.method import Method, method_from_tables
 from comparison import bouncing
@@ -34,10 +34,13 @@ __all__ = ["Swept", "bounce", "match", "predict", "sweep"]
 def predict(beam: Beam, *times: float, theory_only: bool = False, fresh: bool = False) -> PredictedCase:
     """Theory beside simulation at ``times``, s (default: the case's own), and the whole impact.
 
-    beam : a case, its file, or an impact. theory_only : nothing is simulated. fresh : stored runs are ignored.
+    beam : a case, its file or tables, or an impact. theory_only : nothing is simulated. fresh : stored runs are
+        ignored.
     Raises ``ValueError`` for what theory or simulation does not take, :class:`bent_beam.SimulationError`.
     """
     case = case_of(beam)
+    for time in times:
+        finite("times", time)
     return predict_case(case, times or (case.end_time,), theory_only=theory_only, store=RunStore.usual(fresh))
 
 
@@ -55,7 +58,7 @@ def made(method: Method | str, case: Case | None = None) -> Method:
 def bounce(beam: Beam, path: Method | str = "hermite", *, jobs: int = 1, fresh: bool = False) -> Bounce:
     """The whole impact by the method of ``path``, or by a method, to the last separation.
 
-    beam : a case, its file, or an impact. jobs : processes. fresh : stored runs are ignored.
+    beam : a case, its file or tables, or an impact. jobs : processes. fresh : stored runs are ignored.
     Raises ``ValueError`` for what the method refuses, :class:`bent_beam.SimulationError` when it cannot finish.
     """
     case = case_of(beam)
@@ -64,7 +67,7 @@ def bounce(beam: Beam, path: Method | str = "hermite", *, jobs: int = 1, fresh: 
 
 def match(
     *methods: Method | str,
-    kappa_over_nu: Iterable[float] = THESIS_KAPPAS,
+    kappa_over_nu: float | Iterable[float] = THESIS_KAPPAS,
     first_order: Sequence[Sequence[float | None]] = (),
     refine: Sequence[float] = (1.0,),
     jobs: int = 1,
@@ -74,7 +77,8 @@ def match(
 
     first_order : (α, ψ, χ[, N]) each; none: the leading order. jobs : processes. fresh : stored runs are ignored.
     """
-    asked = questions([made(one) for one in methods or PATHS], kappa_over_nu, first_order, refine)
+    ratios = [kappa_over_nu] if isinstance(kappa_over_nu, (int, float)) else kappa_over_nu
+    asked = questions([made(one) for one in methods or PATHS], ratios, first_order, refine)
     return match_all(asked, store=RunStore.usual(fresh), jobs=jobs)
 
 
@@ -87,9 +91,9 @@ class Swept(SweepTable):
 
         return sweep_figure(self)
 
-    def write(self, out: Path) -> list[Path]:
+    def write(self, out: str | Path) -> list[Path]:
         """``sweep.json``, ``sweep.csv``, ``sweep.nc`` and, where it can be drawn, ``sweep.png``; returns the files."""
-        table, grid = out / "sweep.csv", out / "sweep.nc"
+        table, grid = Path(out) / "sweep.csv", Path(out) / "sweep.nc"
         write_atomically(table, csv_text(row.to_dict() for row in self.rows))
         write_dataset(self.to_dataset(), grid)
         drawable = len(self.vary) <= 2 and any(row.numbers for row in self.rows)
@@ -123,7 +127,11 @@ def sweep(
     for key, values in vary.items():
         if not isinstance(values, (str, Sequence, np.ndarray)):
             raise InputError(f"vary: {key} takes its values in a list, or as text (got {shortened(values)})")
-        given[key] = varied_from(f"{key}={values}")[1] if isinstance(values, str) else list(values)
+        listed = values.tolist() if isinstance(values, np.ndarray) else values
+        given[key] = varied_from(f"{key}={listed}")[1] if isinstance(listed, str) else list(listed)
+        for value in given[key]:
+            if isinstance(value, float):
+                finite(f"vary: {key}", value)
     lay_values(laid := deepcopy(tables), {key: values[0] for key, values in given.items() if values}, "--vary")
     for said in assignments:
         key = ".".join(name.strip() for name in said.partition("=")[0].split("."))

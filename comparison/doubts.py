@@ -48,7 +48,7 @@ def doubts(impact: Impact, section: Section | None) -> list[str]:
             f"the beam is only {impact.length / radius:.2g} radii of gyration long, and these numbers are for slender "
             "beams; are the sizes of the section in m?"
         )
-    alike = not (impact.off_centre or impact.wall_in_part)
+    alike = not (impact.rotation or impact.first_touch or impact.wall_in_part)
     if impact.relative_curvature == 0.0 and alike and impact.wall_stiffness is None:
         found.append(
             "a straight beam touches a rigid wall with its whole length at once: its rebound is that of the contact "
@@ -58,7 +58,8 @@ def doubts(impact: Impact, section: Section | None) -> list[str]:
         found.append("the second wall is flat and the first one curved: their distance varies along the beam")
     force, pull = impact.axial_force, impact.axial_force * impact.length**2
     pull /= math.pi**2 * impact.bending_stiffness
-    if abs(pull) > STRAIGHTENED and impact.curvature and impact.tension_direction == "axis" and not impact.supported:
+    free = impact.natural_curvature in (None, impact.curvature) and not impact.supported
+    if abs(pull) > STRAIGHTENED and impact.curvature and impact.tension_direction == "axis" and free:
         does = "tension, which straightens it" if pull > 0.0 else "compression, which bends it further"
         at_rest = f" (at rest to about {float(f'{100.0 / (1.0 + pull):.2g}'):g} % of its height)" if pull > -1.0 else ""
         found.append(

@@ -23,6 +23,7 @@ from bent_beam.hysteresis import converges
 from bent_beam.measure.balance import balance_of
 from bent_beam.measure.estimators import lift_shares
 from bent_beam.measure.instant import instant
+from bent_beam.measure.moments import AROUND
 from bent_beam.measure.numbers import FACTOR, Number
 from bent_beam.measure.whole_impact import peak_times
 from bent_beam.tables import in_keys
@@ -71,6 +72,8 @@ def instant_numbers(runs: Runs) -> dict[str, Number]:
     known["half_contact_length"]["element"] = reading["element"]
     if question.late and converges(question.impact):
         known["impulse"]["about_the_time"] = _crossings(runs)
+    if question.impact.wall_stiffness is not None:
+        known["reaction"]["about_the_time"] = _crossings_of_force(runs)
     known["peak_moment"] = unseen_of_moment(runs)
     if not question.late:
         impact = question.impact
@@ -81,6 +84,9 @@ def instant_numbers(runs: Runs) -> dict[str, Number]:
             known[name]["grid_viscosity"] = VISCOSITY * abs(reading[name] or 0.0)
         for name, share in zip(("impulse", "half_contact_length"), lift_shares(0.0 if rightly else reading["lift"])):
             known[name]["lift"] = share * (reading[name] or 0.0)
+    if reading["half_contact_length"] is not None:  # a companion without contact has a half length of 0
+        name = "half_contact_length"
+        runs = runs.part(lambda one: {**one, name: 0.0 if one[name] is None else one[name]})
     return numbers_of(runs, OF_INSTANT, known)
 
 
@@ -91,6 +97,18 @@ def _crossings(runs: Runs) -> float:
     for companion in runs.companions.values():
         changes = np.abs(np.array(companion.reading["impulse_around"]) - own)
         more += FACTOR * float(changes.max() - changes[changes.size // 2])
+    return more
+
+
+def _crossings_of_force(runs: Runs) -> float:
+    """The same of the reaction, N: what companions change of mean forces over parts of that window, beyond what they
+    change of that over all of it."""
+    own, more = np.array(runs.run.reading["impulse_around"]), 0.0
+    if not (window := 2.0 * AROUND * (runs.question.until or 0.0)):
+        return 0.0
+    for companion in runs.companions.values():
+        changes = np.array(companion.reading["impulse_around"]) - own
+        more += FACTOR * float(np.ptp(changes) - abs(changes[-1] - changes[0])) / window
     return more
 
 
@@ -162,7 +180,7 @@ class PredictedCase:
         end = float(question.until or 0.0)
         return impact_figure(question.run(question.run_by).until(end), self.case, numbers_at(self.runs, self.case), end)
 
-    def write(self, out: Path) -> list[Path]:
+    def write(self, out: str | Path) -> list[Path]:
         """``predict.json`` and ``predict.png`` in ``out``; returns the files. Raises as :meth:`plot`."""
         return write_answer(self, out, "predict")
 

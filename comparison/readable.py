@@ -157,11 +157,12 @@ def csv_text(documents: Iterable[Mapping[str, Any]]) -> str:
 
 
 def write_answer(
-    found: Any, out: Path, name: str, drawable: bool = True, document: dict[str, Any] | None = None
+    found: Any, out: str | Path, name: str, drawable: bool = True, document: dict[str, Any] | None = None
 ) -> list[Path]:
     """Document and figure of an answer in ``out``; returns the files."""
     from comparison.figures import style
 
+    out = Path(out)
     file = out / f"{name}.json"
     write_atomically(file, json_text(document or found.to_dict(), indent=1) + "\n")
     return [file, *(style.save(found.plot(), out, name) if drawable else [])]

@@ -176,11 +176,12 @@ def wall_lines(document: dict[str, Any]) -> list[str]:
         return []
     if wall["peak_force"] is None:
         return ["The theory has no largest force for this damping of the wall or this kappa/nu."]
-    force, time = 1e-3 * wall["peak_force"], 1e3 * wall["peak_force_time"]
+    force, time, deep = 1e-3 * wall["peak_force"], 1e3 * wall["peak_force_time"], wall["penetration"]
+    deepest = "" if deep is None else f"largest penetration {1e3 * deep:.3g} mm, "
     lines = [
         f"Largest force on the wall (theory, an infinite beam): {force:.4g} kN at {time:.3g} ms, over a zone of "
         f"± {wall['half_contact_length']:.3g} m.",
-        f"Largest penetration {1e3 * wall['penetration']:.3g} mm, pressure {1e-3 * wall['pressure']:.3g} kN/m. "
+        f"Of this push: {deepest}largest pressure {1e-3 * wall['pressure']:.3g} kN/m. "
         f"Half or twice the stiffness, at this damping ratio: {force * 0.5**0.25:.4g} or {force * 2.0**0.25:.4g} kN.",
     ]
     if wall["spoiled_by"] is not None:

@@ -58,8 +58,12 @@ class Contact(Part, ABC):
     """Whether :meth:`law` may have a strength: a whole beam then gets a scheme in which what has landed rests."""
 
     restitution: Annotated[float, Quantity("", "e", least=0.0, most=1.0)] = 0.0
-    hold: Annotated[int, Quantity("", "constraints in the bilateral strip behind the front", least=0)] = 0
-    hold_until: Annotated[float, Quantity("s", "until then closed constraints do not open", least=0.0)] = 0.0
+    hold: Annotated[
+        int, Quantity("", "constraints in the bilateral strip behind the front, until 0.005 T* at most", least=0)
+    ] = 0
+    hold_until: Annotated[
+        float, Quantity("s", "until then, and 0.005 T* at most, closed constraints do not open", least=0.0)
+    ] = 0.0
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -73,7 +73,7 @@ class PeakForce:
     Attributes:
         error: what Richardson's rule adds, and how far it is from the same rule on grids twice as coarse.
         time, half_contact_length: when the force is largest, to 1 % and 2 %.
-        penetration, pressure: the largest at any place and time; relative error 1e-2.
+        penetration, pressure: the largest at any place and time; relative error 1e-2. penetration_time: when, to 1 %.
     """
 
     value: float
@@ -81,6 +81,7 @@ class PeakForce:
     time: float
     half_contact_length: float
     penetration: float
+    penetration_time: float
     pressure: float
 
 
@@ -102,13 +103,18 @@ def peak_force(kappa_over_nu: float, wall_damping_ratio: float = 0.0) -> PeakFor
     whole = _again(scout, late, 3, kappa_over_nu, wall_damping_ratio)
     runs = [_again(whole, int(whole.force.argmax()), n, kappa_over_nu, wall_damping_ratio) for n in (1, 2, 4)]
     (_, coarsest), (_, coarse), (time, fine) = (largest(run.time, run.force) for run in runs)
-    step = (fine - coarse) / 3.0
+    deep = whole
+    while deep.penetration.argmax() == deep.time.size - 1:  # a damped wall gives for longer
+        end *= 2.0
+        deep = wall_history(kappa_over_nu, wall_damping_ratio, end=end, cells=3 * _CELLS, steps=6 * _CELLS)
+    step, (deepest, depth) = (fine - coarse) / 3.0, largest(deep.time, deep.penetration)
     return PeakForce(
         value=fine + step,
         error=abs(step) + abs(fine + step - coarse - (coarse - coarsest) / 3.0),
         time=time,
         half_contact_length=float(runs[-1].half_contact_length[runs[-1].force.argmax()]),
-        penetration=largest(whole.time, whole.penetration)[1],
+        penetration=depth,
+        penetration_time=deepest,
         pressure=float(max(whole.pressure.max(), runs[-1].pressure.max())),
     )
 

@@ -89,7 +89,7 @@ def validity(impact: Impact, solved: ContactParameters, *, rigid_from: float = 0
         rigid_from: time after which a wall that gives way counts as rigid, s (`theory.wall_prediction`).
         yields: whether the leading order's bending stress is beyond the material's yield stress.
     """
-    if yields:
+    if yields and rigid_from == 0.0:
         return Validity(0.0, 0.0, SECTION)
     if impact.hysteretic_loss > 0.0:
         return Validity(0.0, 0.0, HYSTERESIS)
@@ -105,7 +105,9 @@ def validity(impact: Impact, solved: ContactParameters, *, rigid_from: float = 0
     force = min(until, _until_swings(impact, solved))
     if begins == 0.0:
         return Validity(0.0, until, limited_by, force_until=force)
-    return Validity(begins, until, limited_by, after, force) if begins < until else Validity(0.0, 0.0, after)
+    if begins >= until or yields:  # a wall that gives way bends the beam less until it counts as rigid
+        return Validity(0.0, 0.0, after if begins >= until else SECTION)
+    return Validity(begins, until, limited_by, after, force)
 
 
 def _until_swings(impact: Impact, solved: ContactParameters) -> float:

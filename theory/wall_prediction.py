@@ -46,8 +46,9 @@ class WallPrediction:
         damping_ratio: ζ.
         peak_force, peak_force_error, peak_force_time: the largest force on the whole zone, N, and when it acts, s.
         half_contact_length: of the zone then, m.
-        penetration, pressure: the largest anywhere, m and N/m.
-        spoiled_by: what changes force and penetration by more than 2 % before they are largest, one of the names in
+        penetration, pressure: the largest anywhere, m and N/m; the penetration None where something changes it by more
+            than 2 % before it is largest, which a damped wall puts off.
+        spoiled_by: what changes the force by more than 2 % before it is largest, one of the names in
             `theory.validity`; None: nothing.
         zone_offset: what the wall makes the zone longer by later, m; 0 for one point, whose zone shrinks.
         rigid_from: time after which the force over a tenth of the time, its place and the impulse are those of the
@@ -89,14 +90,17 @@ def on_elastic_wall(impact: Impact, solved: ContactParameters) -> WallPrediction
     if FLATTEST <= ratio <= SHARPEST and damping <= MOST_DAMPED:
         found, deep = peak_force(ratio, damping), impact.velocity * scales.time
         unit = deep * impact.wall_stiffness * scales.length  # V₀√μ(EI k)^{1/4}
+        spoiled = [
+            _spoiled_by(impact, solved, scales.time, scales.time * t) for t in (found.time, found.penetration_time)
+        ]
         largest = {
             "peak_force": unit * found.value,
             "peak_force_error": unit * found.error,
             "peak_force_time": scales.time * found.time,
             "half_contact_length": scales.length * found.half_contact_length,
-            "penetration": deep * found.penetration,
+            "penetration": deep * found.penetration if spoiled[1] is None or spoiled[0] is not None else None,
             "pressure": impact.wall_stiffness * deep * found.pressure,
-            "spoiled_by": _spoiled_by(impact, solved, scales.time, scales.time * found.time),
+            "spoiled_by": spoiled[0],
         }
     return WallPrediction(
         time_scale=scales.time,

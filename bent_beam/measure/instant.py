@@ -59,8 +59,8 @@ def instant(history: ImpactHistory, time: float, *, first_spread: bool = False) 
     """
     k = int(np.argmin(np.abs(history.time - time)))  # saved times are those of steps
     front, bent = first_front(history, time) if first_spread else (half_contact_length(history, k), None)
-    peak = _so_far(peak_moment, history, time, "moment", jumps=True)
-    wall = _so_far(wall_peaks, history, time, "force", "penetration", "pressure")
+    peak = so_far(peak_moment, history, time, "moment", jumps=True)
+    wall = so_far(wall_peaks, history, time, "force", "penetration", "pressure")
     begin, end = history.impact.wall_span
     recent = (history.time >= 0.1 * time) & (history.time <= time * (1.0 + 1e-9))
     return Instant(
@@ -83,7 +83,7 @@ def instant(history: ImpactHistory, time: float, *, first_spread: bool = False) 
     )
 
 
-def _so_far(read: Callable[..., Any], history: ImpactHistory, time: float, *names: str, jumps: bool = False) -> Any:
+def so_far(read: Callable[..., Any], history: ImpactHistory, time: float, *names: str, jumps: bool = False) -> Any:
     """The largest of all steps until ``time``: between the saved instants before and after, what grows is
     interpolated. What ``jumps`` at the impact does not grow from 0 to the first saved instant."""
     k = min(int(np.searchsorted(history.time, time)), history.time.size - 1)

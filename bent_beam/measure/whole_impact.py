@@ -26,6 +26,7 @@ from numpy.typing import NDArray
 from bent_beam.free_flight import LOWEST_PERIOD, acting, has_left
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
+from bent_beam.measure.moments import element_at
 from bent_beam.measure.reduction import WALLS, moment_left_out, peak_moment, wall_peaks
 
 Array = NDArray[np.float64]
@@ -57,7 +58,8 @@ class WholeImpact:
         rigid one. push : the largest impulse within :data:`WINDOW` T*, over μℓV₀; push_time : when the wall begins
         to push within that; push_rise : its part that lies between saved instants, where a
         wall gives way and the force is smooth.
-    supplied : the initial energy and the work of the loads until then, J.
+    supplied : the initial energy and the work of the loads until then, J; supplied_rate : by how much of it that grows
+        in T* then. element : length over ℓ of the element at the largest moment: its place is no surer.
     energy_defect : what the independently computed terms of the budget leave, of the initial energy; energy_gain : the
         largest rise of the energy, what springs of the wall hold included, above what loads have worked, likewise.
     left : whether the beam is off the wall for good; otherwise no number is final. again : whether the run has later
@@ -83,6 +85,8 @@ class WholeImpact:
     push_time: float
     push_rise: float
     supplied: float
+    supplied_rate: float
+    element: float
     within: float
     drift: dict[str, float]
     until: float
@@ -145,7 +149,7 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
         return {"restitution": -after / before if arrives else 0.0} | dict(zip(SHARES, shares))
 
     found, begins, ends = (at(instant) for instant in (last, float(time[end - 1]), float(time[end])))
-    part = 0.5 if impact.wall_stiffness is None else 1.0
+    part, given = 0.5 if impact.wall_stiffness is None else 1.0, float(np.interp(last, time, work))
     gone = arrives and (left or len(contacts) > len(hit))
     return WholeImpact(
         restitution=found["restitution"] if gone else None,
@@ -164,7 +168,9 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
         push=2.0 * (float(gained[k]) + rise) / (mass * speed),
         push_time=float(time[begin]) / unit,
         push_rise=2.0 * rise / (mass * speed),
-        supplied=float(np.interp(last, time, work)),
+        supplied=given,
+        supplied_rate=float(work[end] - work[end - 1]) / float(time[end] - time[end - 1]) * unit / given,
+        element=element_at(history, -1, abs(peak.place - impact.first_touch)) / impact.half_length,
         within=part * float(time[end] - time[end - 1]) / unit,
         drift={name: part * abs(ends[name] - begins[name]) for name in found},
         until=until / unit,

@@ -148,7 +148,7 @@ def check_out(out: Path | None, overwrite: bool) -> None:
     if out is None and overwrite:
         raise InputError("--overwrite has no effect without --out: leave it out")
     if out is not None and out.exists() and not overwrite:
-        raise InputError(f"--out: {out} exists already (give another name, or --overwrite)")
+        raise InputError(f"{out} exists already (give another name, or --overwrite)")
     check_writable(out, folder=False)
 
 

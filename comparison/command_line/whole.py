@@ -73,7 +73,8 @@ def bounce(
     fewer = []
     if hits > 1 and len(rows) < hits:
         longest = 1e3 * bouncing.LONGEST * found.impact.slow_time_scale
-        fewer = [f"{len(rows)} of {hits} hits: then the beam rests on its wall, or is not back by {longest:.3g} ms"]
+        then = f"then the beam is off for good, rests on its wall, or is not back by {longest:.3g} ms"
+        fewer = [f"{len(rows)} of {hits} hits: {then}"]
     document["warnings"] += fewer
     if out is not None:
         try:

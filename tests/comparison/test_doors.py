@@ -1,6 +1,7 @@
 """One question, one answer: whichever door is asked, the same number with the same bar, to the last digit."""
 
 import random
+import re
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -11,14 +12,16 @@ import pytest
 from here import CASES
 from histories import history_of
 
-from bent_beam import Impact, ImpactHistory
-from bent_beam.cases import Case, load_case
+from bent_beam import Impact, ImpactHistory, InputError
+from bent_beam.cases import Case, load_case, read_toml
 from bent_beam.measure.force_map import force_map
-from comparison import bounce, predict
+from comparison import bounce, match, predict, sweep
 from comparison.bounced import scales
 from comparison.compare import _apart, compare_histories, rerun_history
+from comparison.doors import Swept
 from comparison.readable import unit_for
 from comparison.simulating import simulate_case
+from comparison.sweeping import Row
 from comparison.texts import run_text
 from self_similar_fe import SelfSimilarFE
 
@@ -165,6 +168,44 @@ def test_a_wall_that_gives_way_and_is_not_yet_touched_has_no_place_of_its_force(
     said = run_text(simulate_case(case, "hermite", until=3e-4, error_bars="drift", save=20).to_dict())
     assert "largest force  " in said and "nan" not in said.lower() and "None" not in said
     assert "0.3 ms after it passes its rest position" in said and "has not reached its wall, 0.0002 m away" in said
+
+
+@pytest.mark.parametrize(
+    ("ask", "told"),
+    [
+        (lambda: predict(CASES / "tube.toml", [0.001, 0.002]), "times must be a finite number"),
+        (lambda: predict(CASES / "tube.toml", "0.001"), "times must be a finite number"),
+        (lambda: sweep(CASES / "tube.toml", {"impact.velocity": [1.0, float("nan")]}), "vary: impact.velocity must be"),
+    ],
+)
+def test_what_python_asks_amiss_is_refused_by_name(ask, told) -> None:
+    with pytest.raises(InputError, match=re.escape(told)):
+        ask()
+
+
+def test_a_case_may_be_asked_by_its_tables_and_answers_be_written_to_a_folder_by_name(tmp_path: Path) -> None:
+    tables = read_toml(CASES / "tube.toml", "case file")
+    asked = predict(tables, 1e-4, theory_only=True), predict(CASES / "tube.toml", 1e-4, theory_only=True)
+    assert asked[0].to_dict() == asked[1].to_dict()
+    found = match("self_similar", kappa_over_nu=0.5)
+    assert [row.kappa_over_nu for row in found] == [0.5]
+    swept = Swept("", "hermite", {"impact.velocity": [1.0]}, [Row({"impact.velocity": 1.0}, reason="none")])
+    assert all(file.parent == tmp_path for file in swept.write(str(tmp_path)))
+
+
+def test_energies_in_joules_are_no_surer_than_the_work_of_the_loads_and_a_place_than_its_element() -> None:
+    """They are shares of what a load gives until the last contact, which has a bar of its own."""
+    case = load_case(CASES / "tube.toml", ["beam.damping_ratio=0.02", "wall.stiffness=2e6", "mesh.element_length=0.1",
+                                           "mesh.kind=uniform"])  # fmt: skip
+    found = bounce(case)
+    supplied, late = found.outcome.supplied, found.outcome.supplied_rate * found.numbers["last_contact"].bar
+    power = case.impact.net_load * case.impact.length * case.impact.velocity * case.impact.slow_time_scale
+    assert 0.0 < abs(found.outcome.supplied_rate) * supplied < power  # of the weight, slower than it came
+    for name in ("translation", "vibration", "dissipated"):
+        share, energy = found.numbers[name], found.in_si[name]
+        assert energy.bar == pytest.approx(supplied * (share.bar + abs(late) * abs(share.value)))
+        assert sum(energy.parts.values()) == pytest.approx(energy.bar)
+    assert found.in_si["peak_moment_place"].bar >= 0.1 * (1.0 - 1e-9)
 
 
 def test_settings_that_two_runs_share_are_no_difference() -> None:

@@ -60,6 +60,23 @@ def test_curves_that_cross_at_the_time_asked_do_not_agree() -> None:
     assert instant_numbers(runs(TIME, above))["impulse"].bar == pytest.approx(FACTOR * 0.02)  # it counts once
 
 
+def test_forces_that_cross_at_the_time_asked_do_not_agree_before_a_wall_that_gives_way() -> None:
+    """Mean forces over halves of the window, 0.2 long, differ by ±0.04/0.1, over all of it not at all."""
+    crossing = TIME | {"impulse_around": [0.9, 1.04, 1.1]}
+    rigid = runs(TIME, crossing, until=1.0)
+    soft = dataclasses.replace(rigid.question, impact=rigid.question.impact.replace(wall_stiffness=1e4))
+    assert instant_numbers(rigid)["reaction"].bar == 0.0
+    found = instant_numbers(dataclasses.replace(rigid, question=soft))["reaction"]
+    assert found.bar == pytest.approx(FACTOR * 0.04 / 0.2)
+
+
+def test_a_half_length_that_a_companion_does_not_have_is_as_unsure_as_it_is_long() -> None:
+    number = instant_numbers(runs(TIME, TIME | {"half_contact_length": None}))["half_contact_length"]
+    assert number.value == 1.0 and number.bar == pytest.approx(FACTOR)
+    assert "half contact length" in wide_bars({"half_contact_length": number})[0]
+    assert not instant_numbers(runs(TIME | {"half_contact_length": None}, TIME))["half_contact_length"].measured
+
+
 def test_what_a_run_and_its_companion_share_stays_in_the_bar() -> None:
     """Grid viscosity of an early run, 2e-3; chatter of single nodes in a moment without damping, 1e-2."""
     early = instant_numbers(runs(TIME, TIME, until=EARLY))

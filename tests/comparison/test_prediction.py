@@ -125,6 +125,13 @@ def test_a_pull_as_large_as_the_buckling_load_leaves_half_of_a_bow_and_a_tenth_o
     assert "bends it further (at rest to about 1000 % of its height)" in said[-0.9][0]
     held = Impact(4.0, 1.0, 2.0, 0.1, 1.0, axial_force=np.pi**2, tension_direction="tangent", acceleration=0.0)
     assert doubts(held, None) == []  # by other forces
+    assert doubts(beam.replace(axial_force=-0.9 * np.pi**2, natural_curvature=0.0), None) == []  # likewise
+
+
+def test_what_touches_with_its_whole_length_at_once_is_said_of_a_gate_on_its_hinge_too() -> None:
+    gate = Impact(4.0, 1.0, 2.0, 0.0, 1.0, damping=1e-3, left_end="hinged")
+    assert gate.off_centre and "its rebound is that of the contact law" in doubts(gate, None)[0]
+    assert doubts(gate.replace(wall_stiffness=1e3), None) == []
 
 
 def test_sizes_in_mm_stiffness_in_gpa_and_a_hole_that_bends_on_one_side_alone_are_doubted() -> None:

@@ -2,6 +2,7 @@
 
 import math
 from functools import cache
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -139,8 +140,31 @@ def test_prediction_in_si_units(monkeypatch: pytest.MonkeyPatch) -> None:
     assert found.limited_by == "wall"  # so flat a zone remembers how it landed
     assert found.wall.spoiled_by is None
     assert predict(pipe.replace(length=4.0)).wall.spoiled_by == "waves back from the ends"
+    assert found.wall.penetration == pytest.approx(2.0 * math.sqrt(29.0 / 2e8) * f.penetration, rel=1e-12)
     rigid = predict(pipe.replace(wall_stiffness=None, wall_damping=0.0))
     assert (rigid.peak_force, rigid.wall) == (None, None) and rigid.valid_until > 0.0
+
+
+def test_a_damped_wall_gives_longest_after_its_force_and_a_beam_may_have_ended_by_then() -> None:
+    """κ/ν = 3, ζ = 4.5: the force is largest at .15 t_k, the penetration at 8 t_k; waves are back at some .01 T*."""
+    found = elastic_wall.peak_force(3.0, 4.5)
+    whole = elastic_wall.wall_history(3.0, 4.5, end=20.0, cells=60, steps=300)
+    deepest = whole.time[whole.penetration.argmax()]
+    assert found.time < 0.2 < 7.0 < deepest < 10.0 and found.penetration_time == pytest.approx(deepest, rel=0.05)
+    assert found.penetration == pytest.approx(whole.penetration.max(), rel=1e-2)
+    for share, known in ((0.01, False), (0.001, True)):  # t_k over T*
+        beam = Impact.whole_beam(3.0).replace(wall_stiffness=share**-2.0, wall_damping=9.0 / share)
+        wall = predict(beam).wall
+        assert wall.spoiled_by is None and (wall.penetration is not None) == known
+
+
+def test_a_section_that_would_yield_on_a_rigid_wall_does_not_on_one_that_never_acts_as_one() -> None:
+    beam = Impact(1.2e6, 29.0, 90.0, 0.002, 20.0)
+    section = SimpleNamespace(area=3.4e-3, section_modulus=9.2e-5, yield_stress=1e8)
+    rigid, soft = (predict(beam.replace(wall_stiffness=k), section=section) for k in (None, 2e6))
+    assert (rigid.limited_by, soft.limited_by) == ("section", "wall") and rigid.valid_until == soft.valid_until == 0.0
+    hard = predict(beam.replace(curvature=0.2, wall_stiffness=1e12), section=section)
+    assert hard.limited_by == "section"  # it acts as a rigid one before waves are back
 
 
 @pytest.mark.parametrize(("kappa_over_nu", "times"), [(0.5, 3.0), (2.0, 10.0)])

@@ -49,7 +49,8 @@ const Limits = (() => {
   /** `from`, `until` (s) and what spoils them, `after` and `by`, as theory.validity names it; never: until = 0. */
   function limits(problem, yields) {
     const { b, contact, timeScale, n } = problem, never = (by) => ({ from: 0, until: 0, by, after: null });
-    if (yields) return never("section");
+    const wall = rigidFrom(problem);
+    if (yields && !wall) return never("section");
     const alone = Theory.contact(contact.ratio, problem.alpha);
     const leads = n && abs(contact.r1 - alone.r1) >= abs(alone.r1);
     const list = [
@@ -59,9 +60,10 @@ const Limits = (() => {
     const [tau, by] = list.reduce((one, other) => (other[0] < one[0] ? other : one)), until = tau * timeScale;
     const shear = b.shear && (contact.ratio < V.flattest_sheared ? Infinity
       : max(V.forgotten, contact.ratio ** -2) * sqrt(b.stiffness * b.mass) / b.shear);
-    const wall = rigidFrom(problem), [from, after] = shear > wall ? [shear, "shear"] : [wall, "wall"];
+    const [from, after] = shear > wall ? [shear, "shear"] : [wall, "wall"];
     if (!from) return { from, until, by, after: null };
-    return from < until ? { from, until, by, after } : never(after);
+    if (from >= until || yields) return never(from >= until ? after : "section");
+    return { from, until, by, after };
   }
 
   /** s at which waves from the ends swing the force: without damping its mean, else short waves. */

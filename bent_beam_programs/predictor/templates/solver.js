@@ -128,7 +128,7 @@ const Solver = (() => {
     const until = min(found.lastContact + PERIOD, frames[frames.length - 1].t);
     const lastContact = over ? hit.lastContact : null;
     const ends = { begin: hit.begin, apart: hit.apart, lastContact, returns: nearest(frames, m.gap, hit.lastContact) };
-    return { ...found, ...ends, impulse: hit.impulse, restitution, until, frames, early };
+    return { ...found, ...ends, impulse: over ? hit.impulse : null, restitution, until, frames, early };
   }
 
   return { simulate };

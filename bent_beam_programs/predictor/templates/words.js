@@ -57,7 +57,7 @@ const Words = (() => {
       [whole && restitution.value === null, "The loads keep the beam on the wall: no restitution is given."],
       [back, "The loads bring the beam back to the wall; these numbers are those of the first hit."],
       [(b.curvature - b.wallCurvature) * b.length / 2 >= DOUBTS.steep, "The bow is steep: all this is for small slopes."],
-      [Math.abs(pull) > DOUBTS.straightened, `The bow is not in equilibrium under the axial force, which ${bends}.`],
+      [Math.abs(pull) > DOUBTS.straightened && b.naturalCurvature === b.curvature, `The bow is not in equilibrium under the axial force, which ${bends}.`],
       [b.tension, `Stresses include ${quantity("stress", Beam.stress(b, 0), 4)} of the axial force.`],
       [b.length < DOUBTS.stubby * radius, `The beam is only ${text(b.length / radius, 2)} radii of gyration long.`],
     ];
