@@ -20,6 +20,7 @@ from bent_beam.measure.numbers import Number
 from bent_beam_programs.predictor.page import MODEL, SIMULATION, page, script, write_page
 from comparison.bouncing import bounce
 from comparison.command_line.app import run
+from comparison.whole_numbers import FINAL
 from theory import predict as theory_predict
 
 needs_node = pytest.mark.skipif(shutil.which("node") is None, reason="Node.js is not installed")
@@ -244,7 +245,8 @@ def page_and_bounce(inputs: list[dict[str, Any]], share: float = 1.0) -> tuple[i
         """given.map((typed) => {
         const i = {...Beam.START, ...typed}, b = Beam.impact(i), p = Beam.problem(b, b.damping), runs = {};
         for (const [name, how] of Object.entries(Answer.runs(p))) runs[name] = Solver.simulate(p, how);
-        return {wrong: Beam.complaints(i), text: Case.toml(i, b), numbers: Answer.numbers(p, runs)}; })""",
+        const leaves = Object.values(runs).map((run) => run.restitution !== null);
+        return {wrong: Beam.complaints(i), text: Case.toml(i, b), numbers: Answer.numbers(p, runs), leaves}; })""",
         inputs,
     )
     names = {"restitution": "restitution", "lastContact": "last_contact", "impulse": "impulse"}
@@ -252,8 +254,13 @@ def page_and_bounce(inputs: list[dict[str, Any]], share: float = 1.0) -> tuple[i
     compared, missed = 0, []
     for row in (row for row in found if not row["wrong"]):
         case = case_from_tables(tomllib.loads(row["text"]))
-        said = bounce(case, case.method("hermite")).numbers
+        answer = bounce(case, case.method("hermite"))
+        said, leaves = answer.numbers, {*row["leaves"], *(run.reading["left"] for run in answer.runs.every)}
         for here, there in ((here, there) for here, there in names.items() if there in said):
+            if len(leaves) == 2 and there in FINAL:  # a flight about as long as the period that makes two hits of one
+                one = row["numbers"][here]["value"] is not None, said[there].value is not None
+                assert one == (all(row["leaves"]), all(run.reading["left"] for run in answer.runs.every)), row["text"]
+                continue
             one, other = Number(row["numbers"][here]["value"], row["numbers"][here]["bar"]), said[there]
             assert one.measured == (other.value is not None), (there, row["text"])
             if other.value is None:
