@@ -146,7 +146,10 @@ def run(arguments: Sequence[str] | None = None) -> int:
         if isinstance(ended.__context__, BrokenPipeError):  # click takes `| head` for a failure
             return _drop_output()
         return _refuse(f"something that was called ended the program: {ended}", 3)
-    except (KeyboardInterrupt, typer.Abort):
+    except (KeyboardInterrupt, typer.Abort, ImportError) as error:
+        # a library that is interrupted while it loads may say that it cannot be imported
+        if isinstance(error, ImportError) and not any(signal.getsignal(number) is interrupt for number in AGAIN):
+            raise
         return _refuse(f"interrupted; {how_to_go_on(words)}", INTERRUPTED)
 
 

@@ -74,6 +74,24 @@ app.main(["new"])
 """
 
 
+LOADS = """
+import time
+from pathlib import Path
+from comparison.command_line import app
+
+def new(**_):
+    try:
+        Path("ready").touch()
+        for _ in range(3000):
+            time.sleep(0.02)
+    except KeyboardInterrupt:
+        raise ImportError("initialization failed")
+
+app.app = new
+app.main(["new"])
+"""
+
+
 def at_work(program, folder, *words):
     """A program in ``folder``, at work from the moment ``ready`` is there."""
     (folder / "ready").unlink(missing_ok=True)
@@ -129,6 +147,14 @@ def test_a_file_that_is_being_written_is_whole_or_not_there(how, tmp_path):
     out, err = process.communicate(timeout=30)
     assert process.returncode == 130 and out == "" and err.count("\n") == 1 and "no half of a file" in err, err
     assert list((tmp_path / "out").iterdir()) == []
+
+
+def test_a_library_that_is_interrupted_while_it_loads_is_no_missing_library(tmp_path):
+    """Exudyn says that its module could not be imported."""
+    process = at_work(LOADS, tmp_path)
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=30)
+    assert process.returncode == 130 and out == "" and err.count("\n") == 1 and "interrupted" in err, err
 
 
 @pytest.mark.verify
