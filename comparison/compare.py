@@ -27,7 +27,7 @@ CURVES = ("total_impulse", "kinetic_energy", "strain_energy")
 def compare_histories(a: ImpactHistory, b: ImpactHistory) -> dict[str, Any]:
     """What two histories have in common and what not; SI units.
 
-    ``end`` : numbers at the end of the common time (``time`` : of each run), first and second; ``peak_moment`` : the
+    ``impact``, ``settings``, ``versions`` : what differs in each. ``end`` : numbers at the end of the common time (``time`` : of each run), first and second; ``peak_moment`` : the
     largest until then; ``largest_difference`` : of each curve over the
     common time, over the first's largest value; of the gap over V₀t at the end, on the nodes of the first.
     """

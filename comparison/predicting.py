@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bent_beam import Case, Method, SimulationError
 from bent_beam.history import REFLECTED, ImpactHistory
@@ -93,23 +94,25 @@ def instant_numbers(runs: Runs) -> dict[str, Number]:
 def _crossings(runs: Runs) -> float:
     """What companions change of the impulse within a tenth of the time around, beyond what they change at the time
     itself, N s: the curves of two runs cross, and agree there by chance."""
-    own, more = np.array(runs.run.reading["impulse_around"]), 0.0
-    for companion in runs.companions.values():
-        changes = np.abs(np.array(companion.reading["impulse_around"]) - own)
-        more += FACTOR * float(changes.max() - changes[changes.size // 2])
-    return more
+    changes = np.abs(_changes_around(runs))
+    return FACTOR * float((changes.max(axis=1, initial=0.0) - changes[:, changes.shape[1] // 2]).sum())
 
 
 def _crossings_of_force(runs: Runs) -> float:
     """The same of the reaction, N: what companions change of mean forces over parts of that window, beyond what they
     change of that over all of it."""
-    own, more = np.array(runs.run.reading["impulse_around"]), 0.0
-    if not (window := 2.0 * AROUND * (runs.question.until or 0.0)):
+    if runs.question.until is None:  # to the last separation, where nothing pushes
         return 0.0
-    for companion in runs.companions.values():
-        changes = np.array(companion.reading["impulse_around"]) - own
-        more += FACTOR * float(np.ptp(changes) - abs(changes[-1] - changes[0])) / window
-    return more
+    changes = _changes_around(runs)
+    more = np.ptp(changes, axis=1) - np.abs(changes[:, -1] - changes[:, 0])
+    return FACTOR * float(more.sum()) / (2.0 * AROUND * runs.question.until)
+
+
+def _changes_around(runs: Runs) -> NDArray[np.float64]:
+    """What each companion changes of the impulse around the time, N s, shape (companions, instants)."""
+    own = np.array(runs.run.reading["impulse_around"])
+    found = [np.array(one.reading["impulse_around"]) - own for one in runs.companions.values()]
+    return np.array(found).reshape(-1, own.size)
 
 
 @dataclass(frozen=True)

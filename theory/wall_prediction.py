@@ -46,8 +46,8 @@ class WallPrediction:
         damping_ratio: ζ.
         peak_force, peak_force_error, peak_force_time: the largest force on the whole zone, N, and when it acts, s.
         half_contact_length: of the zone then, m.
-        penetration, pressure: the largest anywhere, m and N/m; the penetration None where something changes it by more
-            than 2 % before it is largest, which a damped wall puts off.
+        penetration, pressure: the largest anywhere, m and N/m; the penetration None where something changes it, and not
+            the force, by more than 2 % before it is largest, which a damped wall puts off.
         spoiled_by: what changes the force by more than 2 % before it is largest, one of the names in
             `theory.validity`; None: nothing.
         zone_offset: what the wall makes the zone longer by later, m; 0 for one point, whose zone shrinks.

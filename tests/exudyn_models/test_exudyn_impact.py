@@ -102,6 +102,7 @@ def test_nothing_is_held_once_waves_may_be_back():
     "parts",
     [
         pytest.param({"element": GeometricallyExact()}, marks=verify),
+        pytest.param({"contact": Rigid(), "integrator": Newmark(relative_step=5e-3)}, marks=verify),
         {"contact": Penalty(relative_stiffness=3.0, relative_damping=1.0, hold=4)},
         {"contact": SegmentFriction(friction=0.3)},  # friction changes nothing in the linear limit
         pytest.param({"integrator": Newmark(relative_step=5e-3)}, marks=verify),

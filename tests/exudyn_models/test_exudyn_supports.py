@@ -26,8 +26,8 @@ def agree(impact: Impact, end: float, tolerance: float, refine: float = 0.25):
     return histories
 
 
-def test_a_hinged_beam_swings_in_its_first_mode_and_a_clamped_one_in_its_own() -> None:
-    method = ExudynModel(refine=0.15)  # on the Hermite path with shear and tension, too: hermite_fe/test_shear.py
+@pytest.mark.parametrize("method", [ExudynModel(refine=0.15), HermiteFE(refine=0.2)], ids=lambda method: method.path)
+def test_a_hinged_beam_swings_in_its_first_mode_and_a_clamped_one_in_its_own(method) -> None:
     for ends, beta in ((HINGED, np.pi), (dict.fromkeys(HINGED, "clamped"), 4.730040744862704)):
         impact = Impact(1.0, 1.0, 2.0, 1e-3, 1e-6, wall_from=0.5, wall_to=0.6, **ends)  # the wall is out of reach
         omega = beta**2 / 4.0

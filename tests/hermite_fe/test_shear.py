@@ -105,9 +105,10 @@ def test_free_frequencies_converge_to_timoshenko_s_fourfold_or_faster(s: float) 
 
 
 @pytest.mark.parametrize("change", [{}, {"acceleration": 4.0}, {"fourth_derivative": 2.0}, {"wall_stiffness": 1e4}])
-def test_momentum_and_energy_close(change: dict[str, float]) -> None:
+def test_momentum_and_energy_close_and_half_the_beam_is_half_of_it(change: dict[str, float]) -> None:
     impact = BEAM.replace(**change)
-    half = HermiteFE(mesh=UniformMesh(0.02)).for_whole_beam(impact).simulate(impact, end_time=0.1, save=200)
+    runs = [HermiteFE(mesh=UniformMesh(0.02), full_beam=full).for_whole_beam(impact) for full in (False, True)]
+    half, full = (run.simulate(impact, end_time=0.1, save=200) for run in runs)
     budget, balance = half.energy_budget(), balance_of(half)
     assert abs(budget["defect"]) < 1e-9 * budget["initial_energy"] and budget["loss_material"] > 0.0
     assert balance.momentum < 2e-3 and balance.second_moment < 5e-3 and balance.warnings == []  # v by differences
@@ -116,6 +117,9 @@ def test_momentum_and_energy_close(change: dict[str, float]) -> None:
     momentum = 2.0 * v @ product(spread, np.tile([1.0, 0.0], half.positions(0).size))
     given = impact.load_within(1.0) * half.time - half.array("total_impulse")
     assert momentum - momentum[0] == pytest.approx(given, abs=1e-9)
+    assert full.array("total_impulse") == pytest.approx(half.array("total_impulse"), abs=1e-5)
+    middle = full.positions(0).size // 2
+    assert full.array("bending_moment")[:, middle:] == pytest.approx(half.array("bending_moment"), abs=1e-3)
     assert np.abs(half.array("bending_moment")).max() <= half.moment.max() * (1.0 + 1e-9)
 
 
