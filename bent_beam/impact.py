@@ -21,7 +21,7 @@ from typing import Any
 from bent_beam.checks import LARGEST, non_negative, positive
 from bent_beam.errors import InputError
 from bent_beam.hysteresis import check_loss
-from bent_beam.loads import loads_of
+from bent_beam.loads import loads_of, places_of
 from bent_beam.scales import Scales
 
 ENDLESS = 1e30  # time, and change of the free motion by the loads, in the problem's own units
@@ -162,12 +162,11 @@ def _check_arrangement(impact: Impact) -> None:
         bow, room = 0.5 * impact.curvature * s**2 - bend * s**4 / 24.0, impact.opposite_wall
         if bow > room * (1.0 + 1e-9):
             raise InputError(f"opposite_wall must leave room for the bow of {bow:.6g} m behind its apex (got {room!r})")
-    for name in ("wall_from", "wall_to"):
+    for name, about in places_of(type(impact)).items():
         place = getattr(impact, name)
         if place is not None and not -half <= place <= half:
             raise InputError(
-                f"{name} must lie on the beam, within {half!r} m of its middle (got {place!r}); leave it out for a "
-                "wall that goes on"
+                f"{name} must lie on the beam, within {half!r} m of its middle (got {place!r}){about.outside}"
             )
     begin, end = impact.wall_span
     if begin > end:

@@ -11,25 +11,17 @@ and what compares with it do so, too (:func:`unmodelled`).
 
 To add a load:
 
-1. ``scales.py``: its field, with ``instead=SIMULATED``, of which a refusal takes its advice. A force at a place that
-   can be chosen has a second field, the place, with its key in ``tables.py`` and ``description.py``; ``impact.py``
-   (``_check_arrangement``) is to check that it is on the beam, and ``meshes.snapped``, called in
-   ``hermite_fe/resolution.py`` and ``exudyn_models/assembly.py``, to put a node there. A load without a term of y₀ has
-   its share in ``load_within``, of which momentum, balances and hits follow. Where it can pull or turn the beam off the
-   wall, ``lifts`` says so; where it acts on one half alone, ``off_centre``, by which ``comparison/doubts.py`` tells
-   where the beam touches.
-2. Each path that models it: its name in ``MODELLED`` (``hermite_fe/model.py``, ``exudyn_models/method.py``) and, of a
-   load without a term, its force, of which half a beam takes half at the middle: ``nodal_loads`` in
+1. ``scales.py``: its field, with ``instead=SIMULATED``, of which a refusal takes its advice. The place of a force is a
+   field of its own, a :class:`Place`: its key in ``[impact]``, its check, a node there and whether the full beam is
+   needed follow. A load without a term of y₀ has its share in ``load_within``, of which momentum, balances and hits
+   follow. Where it can pull or turn the beam off the wall, ``lifts`` says so.
+2. Each path that models it: its name in ``MODELLED`` and, of a load without a term, its force: ``nodal_loads`` in
    ``hermite_fe/model.py``; ``assemble`` in ``exudyn_models/assembly.py``, in the model's units (``Scaling``) and times
-   its ``amplitude``. A path that models a part of a long beam, with coarse elements far out, refuses a place beyond
-   them. Exudyn asks y₀ what the beam can do: tell such a load to ``chosen_half_length``, ``chosen_mesh`` and
-   ``reachable`` (``resolution.py``), ``amplitude_of`` (``geometry.py``) and ``fastest`` (``recording.py``).
-3. ``first_spread`` in ``comparison/questions.py``, where it is uneven over the zone: the half length is then that
-   of the outermost point that pushes, and not of the centroid of the pushes.
-4. A line in ``new_case.py``; ``INSTEAD`` in the page's ``case.js`` says which command takes it. A test
-   (``tests/measure/test_balance.py`` has the balances, ``tests/twins.py`` runs in other units, ``benchmarks/beams.py``
-   draws beams), rows in ``docs/guide/problems.md`` and ``docs/scope.md``, a line in ``CHANGELOG.md``, and the stored
-   numbers confirmed (``make stored``: some minutes).
+   its ``amplitude``. Exudyn asks y₀ how much of the beam to model and which nodes may touch: tell such a load to
+   ``chosen_half_length`` and ``reachable`` in ``exudyn_models/resolution.py``.
+3. A line in ``new_case.py``, a test (``tests/measure/test_balance.py`` has the balances, ``tests/twins.py`` runs in
+   other units, ``benchmarks/beams.py`` draws beams), rows in ``docs/guide/problems.md`` and ``docs/scope.md``, a line
+   in ``CHANGELOG.md``, and the stored numbers confirmed (``make stored``: some minutes).
 
 A beam with held ends,
 
@@ -69,6 +61,14 @@ class Feature(Quantity):
 
 
 @dataclass(frozen=True)
+class Place(Feature):
+    """A field that is a place of the beam, m from its middle: both paths put a node there. outside : what to do where
+    it is none."""
+
+    outside: str = ""
+
+
+@dataclass(frozen=True)
 class Load(Feature):
     """A field that is a load.
 
@@ -83,6 +83,11 @@ class Load(Feature):
 def loads_of(kind: type) -> dict[str, Load]:
     """The loads among the fields of :class:`bent_beam.Impact`, by name."""
     return {name: field.quantity for name, field in declared(kind).items() if isinstance(field.quantity, Load)}
+
+
+def places_of(kind: type) -> dict[str, Place]:
+    """The places among the fields of :class:`bent_beam.Impact`, by name."""
+    return {name: field.quantity for name, field in declared(kind).items() if isinstance(field.quantity, Place)}
 
 
 def beyond_first_order(impact: Part) -> str | None:

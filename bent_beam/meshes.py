@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Annotated, ClassVar, Protocol, Self, runtime_checkable
 
@@ -26,8 +27,8 @@ __all__ = [
 
 Array = NDArray[np.float64]
 
-NEAR = 1e-9  # of the half length: an edge of the wall so near the middle or an end of the beam lies there
-SLIVER = 0.01  # of an element: an edge of the wall that leaves less of it asks for other elements
+NEAR = 1e-9  # of the half length: a place so near the middle or an end of the beam lies there
+SLIVER = 0.01  # of an element: a place that leaves less of it asks for other elements
 MAXIMUM_NODES = 2_000_000  # beyond this a mesh is a typing error, not a wish
 
 
@@ -56,19 +57,20 @@ def checked_nodes(nodes: Array) -> Array:
     return x
 
 
-def snapped(nodes: Array, wall_span: tuple[float, float]) -> Array:
-    """``nodes`` of the half beam with those nearest to the edges of the wall moved onto them, m.
+def snapped(nodes: Array, places: Iterable[float]) -> Array:
+    """``nodes`` of the half beam with those nearest to ``places`` of either half, m from the middle, moved onto them.
 
-    Raises ``ValueError`` where the elements are too large to have a node at every edge.
+    Raises ``ValueError`` where the elements are too large to have a node at every place.
     """
-    moved, near, edges = nodes.copy(), NEAR * nodes[-1], np.unique(np.abs(wall_span))
-    edges = edges[(edges > near) & (edges < nodes[-1] - near)]
-    edges = edges[np.diff(edges, prepend=-np.inf) > near]  # of both sides, but for round-off
-    for edge in edges:  # between two that are as near, but for round-off, onto the inner
-        moved[1 + np.argmin(np.round(np.abs(nodes[1:-1] - edge) / nodes[-1], 9))] = edge
-    if not np.all(np.isin(edges, moved)) or np.any(np.diff(moved) < SLIVER * np.diff(nodes)):
-        raise InputError(f"mesh has too large elements for a wall from {wall_span[0]!r} to "
-                         f"{wall_span[1]!r} m: each edge takes a node of its own")  # fmt: skip
+    moved, near, wanted = nodes.copy(), NEAR * nodes[-1], np.unique(np.abs([*places]))
+    wanted = wanted[(wanted > near) & (wanted < nodes[-1] - near)]
+    wanted = wanted[np.diff(wanted, prepend=-np.inf) > near]  # of both halves, but for round-off
+    for place in wanted:  # between two that are as near, but for round-off, onto the inner
+        moved[1 + np.argmin(np.round(np.abs(nodes[1:-1] - place) / nodes[-1], 9))] = place
+    if not np.all(np.isin(wanted, moved)) or np.any(np.diff(moved) < SLIVER * np.diff(nodes)):
+        told = ", ".join(f"{place:g}" for place in wanted)
+        raise InputError(f"mesh has too large elements: each edge of the wall takes a node of its own, "
+                         f"{told} m from the middle")  # fmt: skip
     return moved
 
 

@@ -11,7 +11,9 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from bent_beam.fields import Part, Quantity
-from bent_beam.loads import ENDS, SIMULATED, UNSHEARED, Feature, FreeMotion, Load, loads_of
+from bent_beam.loads import ENDS, SIMULATED, UNSHEARED, Feature, FreeMotion, Load, Place, loads_of, places_of
+
+GOES_ON = "; leave it out for a wall that goes on"
 
 
 @dataclass(frozen=True)
@@ -65,8 +67,12 @@ class Scales(Part):
     wall_clearance: Annotated[
         float, Feature("m", "of held ends: from the beam at rest to the wall in front, where a run then starts",
                        least=0.0, instead=": bentbeam simulate follows it, on the Hermite path")] = 0.0  # fmt: skip
-    wall_from: Annotated[float | None, Feature("m", "where the wall begins, from the middle", instead=SIMULATED)] = None
-    wall_to: Annotated[float | None, Feature("m", "where it ends; at wall_from: a stop", instead=SIMULATED)] = None
+    wall_from: Annotated[
+        float | None, Place("m", "where the wall begins, from the middle", instead=SIMULATED, outside=GOES_ON)
+    ] = None
+    wall_to: Annotated[
+        float | None, Place("m", "where it ends; at wall_from: a stop", instead=SIMULATED, outside=GOES_ON)
+    ] = None
     left_end: Annotated[str, Feature("", "how the end at x = −L/2 is held", choices=ENDS, instead=SIMULATED)] = "free"
     right_end: Annotated[str, Feature("", "how the end at x = L/2 is held", choices=ENDS, instead=SIMULATED)] = "free"
 
@@ -233,8 +239,8 @@ class Scales(Part):
     @property
     def off_centre(self) -> bool:
         """Whether the impact is not symmetric about the middle: only a model of the full beam takes it."""
-        begin, end = self.wall_span
-        return bool(self.rotation or self.first_touch or self.left_end != self.right_end or begin != -end)
+        turned = self.rotation or self.first_touch or self.left_end != self.right_end
+        return bool(turned) or self.places != {-place for place in self.places}
 
     @property
     def supported(self) -> bool:
@@ -246,6 +252,12 @@ class Scales(Part):
         """Where the wall begins and ends, m from the middle; the ends of the beam unless given."""
         half = self.half_length
         return -half if self.wall_from is None else self.wall_from, half if self.wall_to is None else self.wall_to
+
+    @property
+    def places(self) -> set[float]:
+        """Where nodes stand whatever the mesh, m from the middle: the edges of the wall, an end of the beam among
+        them, and further fields that are places."""
+        return {*self.wall_span, *(x for name in places_of(type(self)) if (x := getattr(self, name)) is not None)}
 
     @property
     def wall_in_part(self) -> bool:

@@ -1,7 +1,7 @@
 """The tables of a case file with fixed fields; :mod:`bent_beam.description` says what they describe.
 
 A beam may be described as its owner knows it. One way or the other, never both: two ways to say the same thing clash,
-and the error names them. A load that no table describes otherwise is a key of ``[impact]`` as it is.
+and the error names them. A load, or a place, that no table describes otherwise is a key of ``[impact]`` as it is.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import Annotated, ClassVar, get_type_hints
 
 from bent_beam.fields import Part, Quantity, declared
 from bent_beam.impact import Impact
-from bent_beam.loads import loads_of
+from bent_beam.loads import loads_of, places_of
 
 MODELS = ("timoshenko", "euler_bernoulli")
 
@@ -122,7 +122,10 @@ class RunTable(Part):
 
 
 HINTS = get_type_hints(Impact, include_extras=True)
-AS_THEY_ARE = [name for name in loads_of(Impact) if name not in {*declared(BeamTable), *declared(_ImpactTable)}]
+KEYS = {name: f"wall.{name.removeprefix('wall_')}" for name in declared(Impact) if name.startswith("wall_")}
+KEYS |= {"opposite_wall": "wall.opposite", "left_end": "beam.ends (left)", "right_end": "beam.ends (right)"}
+OF_TABLES = {*KEYS, *declared(BeamTable), *declared(_ImpactTable)}
+AS_THEY_ARE = [name for name in (*loads_of(Impact), *places_of(Impact)) if name not in OF_TABLES]
 ImpactTable: type[_ImpactTable] = dataclasses.make_dataclass(
     "ImpactTable",
     [(name, HINTS[name], dataclasses.field(default=getattr(Impact, name))) for name in AS_THEY_ARE],
@@ -144,8 +147,6 @@ WAYS: dict[str, tuple[dict[str, tuple[str, ...]], ...]] = {
 }
 """Keys that say the same thing, each with those that only belong to it: one that is laid over a case replaces the
 others."""
-KEYS = {name: f"wall.{name.removeprefix('wall_')}" for name in declared(Impact) if name.startswith("wall_")}
-KEYS |= {"opposite_wall": "wall.opposite", "left_end": "beam.ends (left)", "right_end": "beam.ends (right)"}
 OWN = re.compile(rf"(?<![\w./-])(?:{'|'.join(KEYS)})\b(?![/-]|\.\w)")  # not in the name of a file
 
 TABLES: dict[str, type[Part]] = {"beam": BeamTable, "impact": ImpactTable, "wall": WallTable, "run": RunTable}

@@ -26,6 +26,7 @@ from bent_beam import ImpactHistory, InputError
 from bent_beam.checks import one_of
 from bent_beam.hysteresis import branches_of, converges
 from bent_beam.impact import BEFORE_WAVES_RETURN, Impact
+from bent_beam.loads import loads_of, unmodelled
 from bent_beam.measure.instant import BEYOND
 from bent_beam.method import Method, for_whole_beam, refined, simulate_to_separation, simulated
 
@@ -76,10 +77,9 @@ class Question:
     @property
     def first_spread(self) -> bool:
         """Whether it is about the first spread of a zone about the middle of a beam before a rigid wall, which pushes
-        at its rim: where the beam shears, the force acts behind the rim."""
-        impact = self.impact
-        gives_way = impact.shear_stiffness is not None or impact.wall_stiffness is not None
-        return not (gives_way or impact.off_centre or impact.wall_in_part or impact.supported or self.late)
+        at its rim: where the beam shears the force acts behind the rim, under other loads than those of y₀ anywhere."""
+        known = (*(load for load, about in loads_of(Impact).items() if about.group), "hysteretic_loss")
+        return unmodelled(self.impact, known) is None and not self.impact.off_centre and not self.late
 
     @property
     def run_by(self) -> Method:

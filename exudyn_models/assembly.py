@@ -29,6 +29,10 @@ from exudyn_models.integrators import Integrator
 from exudyn_models.resolution import lasts_until_waves_return, modelled_half_length, reachable, thin_front
 from exudyn_models.solvers import NewtonSolver
 
+MODELLED = ("acceleration", "curvature_rate", "fourth_derivative", "axial_force", "rotation", "shear_stiffness",
+            "wall_stiffness", "wall_damping", "wall_from", "wall_to", "left_end", "right_end")  # fmt: skip
+"""The loads and other features that are modelled here."""
+
 STRETCH = 1e-4  # largest strain under the axial force in the linear limit: lengths are then right to as much
 TAUT = 1e4  # EAΛ²/EI under it: the stretch then moves the front by 7e-4 of what the force itself does (κ/ν = 0.5)
 STRETCH_LATER = 1e-7  # likewise once waves are back: else waves along the beam take up to 1e-2 of the energy
@@ -84,7 +88,7 @@ def lay_out(impact: Impact, end: float, chosen: Chosen) -> Layout:
             f"mesh.places must end at the half length {impact.half_length!r} in a run that lasts until waves are back "
             f"from the ends (got {half_length!r})"
         )
-    places = checked_nodes(snapped(chosen.mesh.nodes(half_length), impact.wall_span)) / unscaled.length
+    places = checked_nodes(snapped(chosen.mesh.nodes(half_length), impact.places)) / unscaled.length
     scaling = Scaling(impact, end, geometry.amplitude_of(unscaled, float(places[-1])))
     nodes = mirrored(places) if chosen.full_beam else places
     return Layout(half_length, places, scaling, geometry.shape(nodes, scaling, chosen.contact.wall_share(geometry)))
@@ -117,6 +121,7 @@ def assemble(layout: Layout, chosen: Chosen, *, si: bool = False) -> tuple[Beam,
             hold(node, *held[end])
     if scaling.load:
         beam.load_uniformly(scaling.load * scaling.amplitude)
+    # a load without a term of y₀ is added here; of a force in the middle half a beam takes half
     for node, sign, _ in reversed(ends):
         _load_end(beam, node, sign, follows=layout.ends_follow)
     run = chosen.contact.attach(beam, _wall(beam, chosen))

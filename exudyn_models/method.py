@@ -23,7 +23,7 @@ from bent_beam.loads import unmodelled
 from bent_beam.meshes import MESHES, Mesh
 from bent_beam.method import Save, made_of, separation_times
 from exudyn_models import whole_beam
-from exudyn_models.assembly import Chosen, lay_out
+from exudyn_models.assembly import MODELLED, Chosen, lay_out
 from exudyn_models.contacts import CONTACTS, Contact, Penalty, Rigid, Springs
 from exudyn_models.elements import ELEMENTS, Element, chosen_element
 from exudyn_models.geometry import GEOMETRIES, Array, Geometry, supports_or_plate
@@ -33,12 +33,6 @@ from exudyn_models.resolution import chosen_mesh, chosen_steps, thin_front
 from exudyn_models.solvers import SOLVERS, NewtonSolver, filled, quiet
 from exudyn_models.stepping import Stepping, Until, saved_times
 from exudyn_models.warnings_of_run import warnings_of_run
-
-MODELLED = (
-    *("acceleration", "curvature_rate", "fourth_derivative", "axial_force", "rotation"),
-    *("shear_stiffness", "wall_stiffness", "wall_damping", "wall_from", "wall_to", "left_end", "right_end"),
-)
-"""The loads and features that :mod:`exudyn_models.assembly` models."""
 
 FIRST_ORDER_HOLD = 16  # elements behind the front; it ends when waves may be back, and every run states it
 FIRST_ORDER_STEPS = 4.0  # so many times shorter steps: λ₁ of (−1, −1, 0) at κ/ν = 0.8 is 5 % off without, 0.4 % with

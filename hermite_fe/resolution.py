@@ -143,7 +143,7 @@ def choose(impact: Impact, end_time: float, parts: Composition | None = None) ->
         raise InputError(
             f'domain cuts the beam where it goes on: far_field.end must be "following" (got {far_field.end!r})'
         )
-    nodes = snapped(fine, impact.wall_span)
+    nodes = snapped(fine, impact.places)
     return Choice(mesh, nodes, integrator, contact, far_field, parts.mass or ConsistentMass())
 
 
