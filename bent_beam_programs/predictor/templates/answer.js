@@ -19,8 +19,9 @@ const Answer = (() => {
 
   /** The runs behind the numbers of p, by name: `base` and its companions, or, undamped, an ensemble. */
   function runs(p) {
-    const base = resolution(p), half = { ...base, elements: round(base.elements / 2), steps: base.steps / 2 };
-    if (p.eta) return p.wall ? { base, half } : { base, half, law: { ...base, atPosition: !base.atPosition } };
+    const base = resolution(p), part = (s) => ({ ...base, elements: round(s * base.elements), steps: s * base.steps });
+    const half = part(0.5), between = part(0.7); // springs err by where the rim stands between nodes: half may agree by chance
+    if (p.eta) return p.wall ? { base, half, between } : { base, half, law: { ...base, atPosition: !base.atPosition } };
     return Object.fromEntries(DRAWN.map((elements, i) => {
       const drawn = { elements, steps: round((0.5 + 0.2 * i) * elements ** 2), rebound: (i % 3) / 2 };
       return [i ? `drawn ${i}` : "base", drawn];
