@@ -185,6 +185,7 @@ def _of_numbers(found: Score) -> list[Symptom]:
 
 SUSPECT = 0.2  # κ/ν below which the first instants may throw the zone off the wall
 EVEN = 0.08  # unevenness of a zone that was laid down point after point, without rebounds
+STILL = 0.05  # far end's departure from the free motion / V₀τ; half of what is a symptom
 PROPORTIONAL = 0.8  # cosine between pushes and penetrations of a wall on springs; 1 where no dashpot helps
 
 
@@ -208,8 +209,10 @@ def _thrown_off(result: Result, found: Score) -> bool:
 
 
 def _in_the_books(result: Result, found: Score) -> bool:
-    """Whether momentum alone is violated, and contact, motion and energy are sound: then sums or masses are wrong."""
-    return not {one.name for one in found.symptoms} & {"energy", "penetration", "lift", "far_end", "motion"}
+    """Whether momentum alone is violated, contact, motion and energy are sound, and no support can have taken it, as the
+    far end has hardly moved: then sums or masses are wrong."""
+    sound = not {one.name for one in found.symptoms} & {"energy", "penetration", "lift", "far_end", "motion"}
+    return sound and (found.figure("far_end") or 0.0) < STILL
 
 
 def _settled(result: Result, found: Score) -> bool:

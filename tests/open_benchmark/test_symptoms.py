@@ -50,6 +50,11 @@ def test_a_fault_shows_in_its_own_symptom_and_no_other_cause_is_named(name):
     assert not look.passes and not look.wrong_causes and look.first_symptom in FAULTS[name].first
 
 
+def test_momentum_that_a_support_may_have_taken_is_not_called_a_wrong_sum():
+    found = score(result_from_fields(drawn("clamped_end", 2147482015, 12)))
+    assert found.symptoms[0].name == "momentum" and not found.diagnosis
+
+
 @pytest.mark.verify
 def test_of_40_fresh_faults_none_is_clean_or_has_a_wrong_cause_and_30_show_the_right_symptom_first():
     names = [*FAULTS, *list(FAULTS)[: 40 - len(FAULTS)]]
