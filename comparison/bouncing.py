@@ -123,6 +123,7 @@ def whole_numbers(made: Runs) -> dict[str, Number | Band]:
     if made.question.impact.wall_stiffness is not None:  # the last push alone is late by more than half of it
         known["peak_moment_time"]["saved_instants"] *= 0.5
     known |= {name: {"saved_instants": change} for name, change in reading["drift"].items()}
+    known["peak_force"] = {"sharp": reading["peak_force_sharp"]}
     known["push"] = {"saved_instants": reading["push_rise"]}
     known["last_contact"]["contacts"] = _shifted(made)
     known["peak_moment_place"] = {"element": reading["element"]}

@@ -75,6 +75,7 @@ def instant_numbers(runs: Runs) -> dict[str, Number]:
         known["impulse"]["about_the_time"] = _crossings(runs)
     if question.impact.wall_stiffness is not None:
         known["reaction"]["about_the_time"] = _crossings_of_force(runs)
+        known["peak_force"]["sharp"] = reading["peak_force_sharp"]
     known["peak_moment"] = unseen_of_moment(runs)
     if not question.late:
         impact = question.impact

@@ -28,9 +28,10 @@ class Instant:
     a tenth of the time before and after, N. impulse : N s. peak_moment, peak_moment_place, peak_moment_time : the
     largest moment of all steps so far, N m, m, s; moment_left_out : what it may have been at first
     (:func:`bent_beam.measure.reduction.moment_left_out`). peak_force, peak_penetration, peak_pressure : of a wall that
-    gives way, so far, the force with its time, s, mean |x|, m, and wall ("front", "opposite"); the pressure not of a
-    stop. impulse_around : at ``SHARES_AROUND`` of the time, N s. element : length of the one at the rim, m, or how far
-    it jumps. lift : the largest inside the zone in the last decade of time, over V₀t.
+    gives way, so far, the force with its time, s, mean |x|, m, wall ("front", "opposite") and how sharp it is, N
+    (:class:`bent_beam.measure.reduction.WallPeaks`); the pressure not of a stop. impulse_around : at ``SHARES_AROUND``
+    of the time, N s. element : length of the one at the rim, m, or how far it jumps. lift : the largest inside the zone
+    in the last decade of time, over V₀t.
     """
 
     half_contact_length: float | None
@@ -44,6 +45,7 @@ class Instant:
     peak_force_time: float | None
     peak_force_place: float | None
     peak_force_wall: str | None
+    peak_force_sharp: float
     peak_penetration: float | None
     peak_pressure: float | None
     impulse_around: tuple[float, ...]
@@ -75,6 +77,7 @@ def instant(history: ImpactHistory, time: float, *, first_spread: bool = False) 
         peak_force_time=None if wall is None or wall.place is None else wall.time,
         peak_force_place=None if wall is None else wall.place,
         peak_force_wall=None if wall is None else wall.wall,
+        peak_force_sharp=0.0 if wall is None else wall.sharp,
         peak_penetration=None if wall is None else wall.penetration,
         peak_pressure=None if wall is None or begin == end else wall.pressure,
         impulse_around=tuple(np.interp(time * SHARES_AROUND, history.time, history.array("total_impulse")).tolist()),

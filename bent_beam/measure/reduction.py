@@ -34,7 +34,8 @@ class PeakMoment(NamedTuple):
 class WallPeaks(NamedTuple):
     """The largest force on the whole zone of a wall that gives way, N, and its time, s; the largest penetration, m, and
     pressure, N/m (of a stop its force, N); of all steps, not only of the saved instants. Between those around its time:
-    the mean |x| of that force, m, and on which wall it acts, "front" or "opposite"; ``None`` where nothing pushes."""
+    the mean |x| of that force, m, and on which wall it acts, "front" or "opposite"; ``None`` where nothing pushes.
+    sharp : by how much the force stands above the mean of both steps beside it, N."""
 
     force: float
     time: float
@@ -42,6 +43,7 @@ class WallPeaks(NamedTuple):
     pressure: float
     place: float | None
     wall: str | None
+    sharp: float
 
 
 def wall_peaks(history: ImpactHistory, until: float | None = None) -> WallPeaks | None:
@@ -51,7 +53,8 @@ def wall_peaks(history: ImpactHistory, until: float | None = None) -> WallPeaks 
     k = _instants(history, until) - 1
     names = ("peak_force", "peak_force_time", "peak_penetration", "peak_pressure")
     force, time, penetration, pressure = (float(history.array(name)[k]) for name in names)
-    return WallPeaks(force, time, penetration, pressure, *_pushed_at(history, time))
+    place, wall = _pushed_at(history, time)
+    return WallPeaks(force, time, penetration, pressure, place, wall, _sharpness(history, time))
 
 
 def _instants(history: ImpactHistory, until: float | None) -> int:
@@ -66,6 +69,21 @@ def _pushed_at(history: ImpactHistory, time: float) -> tuple[float, str] | tuple
     wall, gain = max(gains.items(), key=lambda one: float(one[1].sum()))
     given = float(gain.sum())
     return (float(gain @ np.abs(history.contact_positions(k))) / given, wall) if given > 0.0 else (None, None)
+
+
+def _sharpness(history: ImpactHistory, when: float) -> float:
+    """By how much the force of a step at ``when`` is above the mean of both beside, N, as from saved instants: with
+    their distance it grows like its square where the force is smooth, like itself where it has a kink."""
+    spans = np.diff(history.time)
+    if spans.size < 5:
+        return 0.0
+    forces = np.diff(history.array("total_impulse")) / spans
+    k = min(max(int(np.searchsorted(history.time, when)) - 1, 2), forces.size - 3)
+    near, far = (float(forces[k] - 0.5 * (forces[k - i] + forces[k + i])) for i in (1, 2))
+    if near <= 0.0:
+        return 0.0
+    order = min(max(math.log2(max(far / near, 1.0)), 1.0), 2.0)
+    return near * min(float(history.time[-1]) / max(history.steps, 1) / float(spans[k]), 1.0) ** order
 
 
 def hold_of(history: ImpactHistory) -> dict[str, float | None] | None:

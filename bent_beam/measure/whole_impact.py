@@ -55,9 +55,9 @@ class WholeImpact:
     translation, vibration, dissipated : shares of the initial energy and the work of the loads, altogether one; the
         rotation of a beam that rocks counts as vibration.
     peak_force : on the zone of a wall that gives way, over μℓV₀/T*, with its time and its mean |x|/ℓ; ``None`` of a
-        rigid one. push : the largest impulse within :data:`WINDOW` T*, over μℓV₀; push_time : when the wall begins
-        to push within that; push_rise : its part that lies between saved instants, where a
-        wall gives way and the force is smooth.
+        rigid one; peak_force_sharp : by how much it stands above the mean of the steps beside its own. push : the
+        largest impulse within :data:`WINDOW` T*, over μℓV₀; push_time : when the wall begins to push within that;
+        push_rise : its part that lies between saved instants, where a wall gives way and the force is smooth.
     supplied : the initial energy and the work of the loads until then, J; supplied_rate : by how much of it that grows
         in T* then. element : length over ℓ of the element at the largest moment: its place is no surer.
     energy_defect : what the independently computed terms of the budget leave, of the initial energy; energy_gain : the
@@ -81,6 +81,7 @@ class WholeImpact:
     peak_force: float | None
     peak_force_time: float | None
     peak_force_place: float | None
+    peak_force_sharp: float
     push: float
     push_time: float
     push_rise: float
@@ -165,6 +166,7 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
         peak_force=None if wall is None else 2.0 * wall.force * unit / (mass * speed),
         peak_force_time=None if wall is None else wall.time / unit,
         peak_force_place=None if wall is None or wall.place is None else wall.place / impact.half_length,
+        peak_force_sharp=0.0 if wall is None else 2.0 * wall.sharp * unit / (mass * speed),
         push=2.0 * (float(gained[k]) + rise) / (mass * speed),
         push_time=float(time[begin]) / unit,
         push_rise=2.0 * rise / (mass * speed),

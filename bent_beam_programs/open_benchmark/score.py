@@ -209,8 +209,8 @@ def _thrown_off(result: Result, found: Score) -> bool:
 
 
 def _in_the_books(result: Result, found: Score) -> bool:
-    """Whether momentum alone is violated, contact, motion and energy are sound, and no support can have taken it, as the
-    far end has hardly moved: then sums or masses are wrong."""
+    """Whether momentum alone is violated, contact, motion and energy are sound, and no support can have taken it, the
+    far end being still: then sums or masses are wrong."""
     sound = not {one.name for one in found.symptoms} & {"energy", "penetration", "lift", "far_end", "motion"}
     return sound and (found.figure("far_end") or 0.0) < STILL
 
