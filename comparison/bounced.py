@@ -145,8 +145,10 @@ class Bounce:
             )
         elif not self.left:
             found.append(f"a run ended with the beam at the wall: {stays}")
-        elif pressed or self.outcome.again or (self.impact.supported and self.impact.axial_force > 0.0):
-            back = "the beam comes back" if self.outcome.again and not pressed else "the loads bring the beam back"
+        elif pressed or self.outcome.again or self.outcome.may_return:
+            swings = self.impact.supported and self.outcome.may_return
+            back = "the loads bring the beam back" if pressed or swings else "the beam comes back"
+            back = back if pressed or swings or self.outcome.again else "the beam may come back"
             found.append(
                 f"{back} to the wall; these numbers are those of the first hit, later ones may be larger: "
                 "bentbeam bounce --hits 3 lists three"

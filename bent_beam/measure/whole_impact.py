@@ -23,7 +23,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bent_beam.free_flight import LOWEST_PERIOD, acting, has_left
+from bent_beam.free_flight import LOWEST_PERIOD, acting, has_left, may_return
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.measure.moments import element_at
@@ -63,7 +63,7 @@ class WholeImpact:
     energy_defect : what the independently computed terms of the budget leave, of the initial energy; energy_gain : the
         largest rise of the energy, what springs of the wall hold included, above what loads have worked, likewise.
     left : whether the beam is off the wall for good; otherwise no number is final. again : whether the run has later
-        hits.
+        hits; may_return : whether any may come after it (:func:`bent_beam.free_flight.may_return`).
     """
 
     restitution: float | None
@@ -97,6 +97,7 @@ class WholeImpact:
     energy_gain: float
     left: bool
     again: bool = False
+    may_return: bool = False
 
 
 def pushes(time: Array, impulse: Array, shortest: float) -> list[tuple[int, int]]:
@@ -182,6 +183,7 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
         energy_gain=float(np.max(np.diff(energy + held - work), initial=0.0)) / initial,
         left=left,
         again=len(contacts) > len(hit),
+        may_return=may_return(history),
     )
 
 

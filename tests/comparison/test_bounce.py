@@ -61,6 +61,12 @@ def test_a_bounce_off_a_wall_that_gives_way_has_its_largest_force_and_gives_its_
     assert asked <= titles and not any("largest impulse within" in title for title in titles)
 
 
+@pytest.mark.parametrize(("begin", "end", "told"), [(-0.1, 0.1, False), (0.3, 0.9, True)])
+def test_a_beam_that_turns_off_the_edge_of_a_plate_may_come_back(begin, end, told) -> None:
+    found = bounce(problem(0.5, 1e-2).replace(wall_from=begin, wall_to=end), HermiteFE(mesh=UniformMesh(1.0 / 20)))
+    assert found.left and told == any(line.startswith("the beam may come back") for line in found.warnings)
+
+
 def test_a_force_that_jumps_as_tips_slap_on_dashpots_is_no_surer_than_its_steps() -> None:
     slap = problem(0.4, 1e-3).replace(wall_stiffness=100.0, wall_damping=120.0)
     coarse = HermiteFE(mesh=UniformMesh(1.0 / 40))
