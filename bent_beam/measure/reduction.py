@@ -33,17 +33,17 @@ class PeakMoment(NamedTuple):
 
 class WallPeaks(NamedTuple):
     """The largest force on the whole zone of a wall that gives way, N, and its time, s; the largest penetration, m, and
-    pressure, N/m (of a stop its force, N); of all steps, not only of the saved instants. Between those around its time:
-    the mean |x| of that force, m, and on which wall it acts, "front" or "opposite"; ``None`` where nothing pushes.
-    sharp : by how much the force stands above the mean of both steps beside it, N."""
+    pressure, N/m (of a stop its force, N); of all steps, not only of the saved instants. sharp : by how much the force
+    stands above the mean of both steps beside it, N. Between the saved instants around its time: the mean |x| of that
+    force, m, and on which wall it acts, "front" or "opposite"; ``None`` where nothing pushes."""
 
     force: float
     time: float
     penetration: float
     pressure: float
+    sharp: float
     place: float | None
     wall: str | None
-    sharp: float
 
 
 def wall_peaks(history: ImpactHistory, until: float | None = None) -> WallPeaks | None:
@@ -53,8 +53,7 @@ def wall_peaks(history: ImpactHistory, until: float | None = None) -> WallPeaks 
     k = _instants(history, until) - 1
     names = ("peak_force", "peak_force_time", "peak_penetration", "peak_pressure")
     force, time, penetration, pressure = (float(history.array(name)[k]) for name in names)
-    place, wall = _pushed_at(history, time)
-    return WallPeaks(force, time, penetration, pressure, place, wall, _sharpness(history, time))
+    return WallPeaks(force, time, penetration, pressure, _sharpness(history, time), *_pushed_at(history, time))
 
 
 def _instants(history: ImpactHistory, until: float | None) -> int:
