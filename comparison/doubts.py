@@ -48,8 +48,7 @@ def doubts(impact: Impact, section: Section | None) -> list[str]:
             f"the beam is only {impact.length / radius:.2g} radii of gyration long, and these numbers are for slender "
             "beams; are the sizes of the section in m?"
         )
-    alike = not (impact.rotation or impact.first_touch or impact.wall_in_part)
-    if impact.relative_curvature == 0.0 and alike and impact.wall_stiffness is None:
+    if impact.relative_curvature == 0.0 and not impact.wall_in_part and impact.wall_stiffness is None:
         found.append(
             "a straight beam touches a rigid wall with its whole length at once: its rebound is that of the contact "
             "law, from 0 to 1, not of the beam; give it a bow, or the wall a stiffness"

@@ -239,6 +239,8 @@ class Recorder:
         """The record in SI units, of the whole beam where it is a sum."""
         s, shape, front = self.scaling, self.beam.shape, self.contact.signs > 0.0
         saved = {name: np.array(values) for name, values in self.record.items()}
+        if not self.pushes:  # what balances of momentum leave is round-off
+            saved |= {name: np.zeros_like(saved[name]) for name in ("total_impulse", "impulse")}
         saved["loss_impact"] = saved["contact_work"] - saved["contact_energy"] - saved.get("loss_wall", 0.0)
         # an axial force is a load: the stretch that it keeps in the beam is none of its work, nor energy of the bending
         saved["work_of_loads"] = saved["work_of_loads"] - saved["stretch_energy"] + saved["stretch_energy"][0]

@@ -18,7 +18,7 @@ from bent_beam import Impact
 from bent_beam.impact import BEFORE_WAVES_RETURN
 from bent_beam.loads import WallScales, wall_scales
 from bent_beam.meshes import Mesh, NodesMesh, ScaleFreeMesh
-from exudyn_models.geometry import Array, Indices, Scaling
+from exudyn_models.geometry import Array, Indices, Scaling, supports_or_plate
 from exudyn_models.integrators import Implicit
 
 GROWTH = 0.01  # neighbours of the chosen mesh: 5 elements over the front's bending length at κ/ν = 0.05, 20 at 0.2
@@ -159,11 +159,12 @@ def _step_over_elements(mesh: Mesh, scaling: Scaling) -> float:
 
 def reachable(x: Array, scaling: Scaling, centre: int) -> Indices:
     """Nodes that may touch: half as far again as the free motion would carry the beam into the wall, and all where
-    waves from the ends may throw any of them at it.
+    waves from the ends may throw any of them at it, an end is held, or the wall is a plate.
 
     A growing velocity (χ > 0) or an upward bent end (ψ > 0) would bring the far field to the wall: let through."""
     impact = scaling.impact
-    if impact.opposite_wall is not None or impact.rotation or lasts_until_waves_return(impact, scaling.end_time):
+    any_may = impact.opposite_wall is not None or impact.rotation or supports_or_plate(impact)
+    if any_may or lasts_until_waves_return(impact, scaling.end_time):
         return np.arange(x.size)
     times = np.linspace(0.05, 1.0, 20)[:, None]
     inside = (scaling.motion(x[None, :] - scaling.first_touch, times) > 0.0).any(axis=0)

@@ -28,8 +28,11 @@ def force_map(history: ImpactHistory, kept: NDArray[np.int64], edges: Array) -> 
 
 
 def spread(places: Array, amounts: Array, edges: Array) -> Array:
-    """Amounts of contact points put into bins, each evenly over its share of the beam."""
+    """Amounts of contact points put into bins, each evenly over its share of the beam, the outermost up to itself."""
     middles = 0.5 * (places[1:] + places[:-1])
-    borders = np.concatenate([[min(0.0, places[0])], middles, [places[-1]]])  # of the half beam: from its middle
+    first = (
+        0.0 if 0.0 < places[0] < places[1] - places[0] else places[0]
+    )  # in the middle of the first element of a half
+    borders = np.concatenate([[first], middles, [places[-1]]])
     gathered = np.concatenate([[0.0], np.cumsum(amounts)])
     return np.diff(np.interp(edges, borders, gathered))

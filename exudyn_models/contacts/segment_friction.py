@@ -4,8 +4,9 @@
 
 Exudyn knows this contact against a circle only, and too large a circle drowns the gap in round-off. So the wall takes
 over a share of the beam's curvature, against which the beam is laid flatter: all of it in the linear limit (gap, load
-and elastic forces are the same to first order), a quarter with the true geometry. Friction works along the beam: of
-second order in the deflection, it changes nothing in the linear limit and little for an axially stiff beam.
+and elastic forces are the same to first order, but for those of an axial force, which needs the bow), a quarter with
+the true geometry. Friction works along the beam: of second order in the deflection, it changes nothing in the linear
+limit and little for an axially stiff beam.
 """
 
 from __future__ import annotations
@@ -114,6 +115,9 @@ class SegmentFriction(Contact):
             reason = f"knows a flat wall only: take penalty (got wall_curvature {impact.wall_curvature})"
         elif impact.first_touch:
             reason = f"knows a wall about the beam's middle only: take penalty (got first_touch {impact.first_touch})"
+        elif impact.axial_force:
+            reason = "lays the bow into the wall, and an axial force does not act on it there: take penalty "
+            reason += f"(got axial_force {impact.axial_force})"
         elif impact.shear_stiffness is not None:
             reason = f"works on cables, which do not shear (got shear_stiffness {impact.shear_stiffness!r}){UNSHEARED}"
         elif impact.curvature == 0.0:

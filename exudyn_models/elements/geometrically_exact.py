@@ -21,6 +21,7 @@ from exudyn_models.geometry import Array, Scaling, Shape
 
 PAIR = np.array([[2.0, 1.0], [1.0, 2.0]]) / 6  # products of the linear shape functions, of the unit element
 RIGID_SHEAR, LITTLE_ROTARY = 100.0, 0.01  # in EI/Δx² and μΔx², of a beam without shear: neither has a visible effect
+LEAST_ROTARY = 1e-4  # μΔx² of a beam with shear: without any, Exudyn starts without accelerations
 
 
 class _Exact(Beam):
@@ -30,7 +31,7 @@ class _Exact(Beam):
         self.shear_stiffness, self.rotary_inertia = RIGID_SHEAR / shape.lengths**2, LITTLE_ROTARY * shape.lengths**2
         if scaling.shear_length:
             self.shear_stiffness = np.full_like(shape.lengths, scaling.shear_length**-2)
-            self.rotary_inertia = np.full_like(shape.lengths, scaling.rotary_inertia)
+            self.rotary_inertia = np.maximum(scaling.rotary_inertia, LEAST_ROTARY * shape.lengths**2)
         super().__init__(mbs, shape, scaling, *more)
 
     def node(self, i: int) -> Any:

@@ -52,6 +52,7 @@ REFUSED = [
     (lambda: run(contact=Rigid(), integrator=Trapezoidal()), "gamma above 0.5"),
     (lambda: run(contact=SegmentFriction(), element=GeometricallyExact()), "ancf_cable"),
     (lambda: run(contact=SegmentFriction(), integrator=RK44()), "implicit"),
+    (lambda: run(SHORT.replace(axial_force=1.0), contact=SegmentFriction()), "axial force does not act .*got .* 1.0"),
     (lambda: run(save=0), "save"),
     (lambda: run(mesh=NODES, end_time=5.0), r"mesh.places .* 4.0 .*got 2.0"),
     (lambda: run(mesh=NODES, end_time=5.0, integrator=RK44()), r"mesh.places .* 4.0 .*got 2.0"),

@@ -61,6 +61,15 @@ def test_a_rigid_stop_and_a_plate_hold_their_part_of_the_beam_and_let_the_rest_p
     assert max(balance_of(history).momentum for history in histories) < 0.01
 
 
+def test_a_clamped_beam_meets_a_plate_at_its_tip_with_all_points_that_stand_before_it() -> None:
+    """The tip moves at 2.95 V₀, where y₀ does not take it, in a run that ends before waves return."""
+    beam = Impact(1.0, 1.0, 2.0, 0.052, 1.0, wall_from=0.6, wall_to=1.0, left_end="clamped")
+    touched = ExudynModel(refine=0.25).simulate(beam, end_time=0.01, save=10)
+    assert touched.contact_positions(0)[-1] == 1.0 and touched.array("gap")[:, -1].min() > -1e-6
+    missed = ExudynModel(refine=0.25).simulate(beam.replace(curvature=0.8), end_time=0.008, save=10)
+    assert not missed.array("total_impulse").any() and not missed.array("impulse").any() and not missed.warnings
+
+
 def test_the_covered_length_of_a_straight_rim_is_exact_and_grows_without_jumps() -> None:
     x = np.array([-1.0, -0.7, -0.2, 0.0, 0.5, 1.0])
     for rim in np.linspace(-0.9, 0.9, 37):
