@@ -44,8 +44,12 @@ def bears_free_flight(impact: Impact) -> bool:
     or a stop that cannot be told."""
     if impact.supported or impact.wall_in_part:
         return False
-    forces = [load for load, about in loads_of(Impact).items() if about.powers is None and getattr(impact, load)]
-    return impact.net_load == 0.0 and not forces and impact.opposite_wall is None
+    return impact.net_load == 0.0 and not _forces(impact) and impact.opposite_wall is None
+
+
+def _forces(impact: Impact) -> bool:
+    """Whether a load acts that has no term of y₀."""
+    return any(about.powers is None and getattr(impact, load) for load, about in loads_of(Impact).items())
 
 
 def cannot_return(impact: Impact, x: Array, gap: Array, velocity: Array, energy: float) -> bool:
@@ -94,12 +98,14 @@ def has_left(history: ImpactHistory) -> bool:
 
 def may_return(history: ImpactHistory) -> bool:
     """Whether a beam that no load presses may come back to its wall after the end of a run: what swings about a hinge
-    does under tension, what is free unless (1) forbids it."""
+    does under tension, what is free unless (1) forbids it; with a uniform pull it is farther from the wall still."""
     impact = history.impact
-    if impact.supported or impact.net_load < 0.0:
-        return impact.supported and impact.axial_force > 0.0
-    whole = impact.replace(wall_from=None, wall_to=None)
-    return not (bears_free_flight(whole) and _stays_clear(impact, *_last(history)))
+    if impact.supported:
+        return impact.axial_force > 0.0
+    if impact.net_load < 0.0 and not impact.off_centre:
+        return False
+    towards = impact.net_load > 0.0 or impact.opposite_wall is not None or _forces(impact)
+    return towards or not _stays_clear(impact, *_last(history))
 
 
 def _is_off(impact: Impact, quiet: float, state: Callable[[], State]) -> bool:

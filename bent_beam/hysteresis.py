@@ -22,6 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.errors import InputError
+from bent_beam.loads import wall_scales
 from bent_beam.scales import Scales
 
 Array = NDArray[np.float64]
@@ -31,6 +32,7 @@ BELOW, ABOVE, EARLIEST = 0.1, 1e6, 1e-4  # of the first mode, of the first mode,
 PER_DECADE, MARGIN = 1.5, math.sqrt(10.0)  # branches, and how far they go beyond either end of the range
 WEIGHT_OF_LOSS = 100.0  # weight of the loss frequency over that of any other
 LEAST_LOSS = 0.05  # with less, meshes, steps and contact laws scatter restitution by hundredths (docs/damping.md)
+SOFT = 0.05  # ℓ_k over L/2, from which on a wall takes the impacts of a beam without damping (docs/whole_impact.md)
 RANGE = (1e-3, 1e6)  # times the first mode: where a loss frequency may lie
 
 
@@ -67,10 +69,16 @@ def first_mode(impact: Scales) -> float:
     return float(FIRST_MODE**2 * impact.wave_constant / impact.length**2 / (2.0 * math.pi))
 
 
-def converges(impact: Scales) -> bool:
-    """Whether a whole impact has numbers that finer elements come to: not without damping, nor with little hysteretic
-    loss, which damps short waves no more than long ones (docs/damping.md)."""
+def is_damped(impact: Scales) -> bool:
+    """Whether the beam itself takes short waves away: little hysteretic loss damps them no more than long ones
+    (docs/damping.md)."""
     return bool(impact.damping > 0.0 or impact.hysteretic_loss >= LEAST_LOSS)
+
+
+def converges(impact: Scales) -> bool:
+    """Whether a whole impact has numbers that finer elements come to: that of a damped beam, or on a soft wall."""
+    wall = wall_scales(impact)
+    return is_damped(impact) or (wall is not None and wall.length >= SOFT * impact.half_length)
 
 
 def branches_of(impact: Scales) -> Branches | None:

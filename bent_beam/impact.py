@@ -168,6 +168,8 @@ def _check_arrangement(impact: Impact) -> None:
             raise InputError(
                 f"{name} must lie on the beam, within {half!r} m of its middle (got {place!r}){about.outside}"
             )
+        if about.load and place and not getattr(impact, about.load):
+            raise InputError(f"{name} has no effect without {about.load} (got {place!r})")
     begin, end = impact.wall_span
     if begin > end:
         raise InputError(f"wall_from must not exceed wall_to {end!r} (got {begin!r})")

@@ -12,13 +12,14 @@ and what compares with it do so, too (:func:`unmodelled`).
 To add a load:
 
 1. ``scales.py``: its field, with ``instead=SIMULATED``, of which a refusal takes its advice. The place of a force is a
-   field of its own, a :class:`Place`: its key in ``[impact]``, its check, a node there and whether the full beam is
-   needed follow. A load without a term of y₀ has its share in ``load_within``, of which momentum, balances and hits
-   follow. Where it can pull or turn the beam off the wall, ``lifts`` says so.
-2. Each path that models it: its name in ``MODELLED`` and, of a load without a term, its force: ``nodal_loads`` in
-   ``hermite_fe/model.py``; ``assemble`` in ``exudyn_models/assembly.py``, in the model's units (``Scaling``) and times
-   its ``amplitude``. Exudyn asks y₀ how much of the beam to model and which nodes may touch: tell such a load to
-   ``chosen_half_length`` and ``reachable`` in ``exudyn_models/resolution.py``.
+   field of its own, a :class:`Place` with ``load``: its key in ``[impact]``, its checks, a node there and whether the
+   full beam is needed follow. A load without a term of y₀ has its share in ``load_within``, of which momentum, balances
+   and hits follow. Where it can pull or turn the beam off the wall, ``lifts`` says so.
+2. Each path that models it: its name, and that of its place, in ``MODELLED`` and, of a load without a term, its force:
+   ``nodal_loads`` in ``hermite_fe/model.py``; ``assemble`` in ``exudyn_models/assembly.py``, a force in its units being
+   N times ``end_time/impulse`` of its ``Scaling``. Exudyn asks y₀ how much of the beam to model and which nodes may
+   touch: tell such a load to ``chosen_half_length`` and ``reachable`` in ``exudyn_models/resolution.py``. A path that
+   models a part of the beam refuses a place beyond.
 3. A line in ``new_case.py``, a test (``tests/measure/test_balance.py`` has the balances, ``tests/twins.py`` runs in
    other units, ``benchmarks/beams.py`` draws beams), rows in ``docs/guide/problems.md`` and ``docs/scope.md``, a line
    in ``CHANGELOG.md``, and the stored numbers confirmed (``make stored``: some minutes).
@@ -50,7 +51,7 @@ from bent_beam.fields import Part, Quantity, declared
 Array = NDArray[np.float64]
 Powers = tuple[int, int]
 UNSHEARED = ': [beam] model = "euler_bernoulli" leaves shear out'
-SIMULATED = ": bentbeam simulate follows it, on the Hermite and the Exudyn path"
+SIMULATED = ": bentbeam simulate follows it"
 
 
 @dataclass(frozen=True)
@@ -63,9 +64,10 @@ class Feature(Quantity):
 @dataclass(frozen=True)
 class Place(Feature):
     """A field that is a place of the beam, m from its middle: both paths put a node there. outside : what to do where
-    it is none."""
+    it is none. load : of which load it is the place, without which it has no effect ("": an edge of the wall)."""
 
     outside: str = ""
+    load: str = ""
 
 
 @dataclass(frozen=True)

@@ -69,8 +69,8 @@ def snapped(nodes: Array, places: Iterable[float]) -> Array:
         moved[1 + np.argmin(np.round(np.abs(nodes[1:-1] - place) / nodes[-1], 9))] = place
     if not np.all(np.isin(wanted, moved)) or np.any(np.diff(moved) < SLIVER * np.diff(nodes)):
         told = ", ".join(f"{place:g}" for place in wanted)
-        raise InputError(f"mesh has too large elements: each edge of the wall takes a node of its own, "
-                         f"{told} m from the middle")  # fmt: skip
+        raise InputError(f"mesh has too large elements: a node of its own stands at each edge of the wall and each "
+                         f"place of a force, here {told} m from the middle")  # fmt: skip
     return moved
 
 

@@ -239,8 +239,9 @@ class Scales(Part):
     @property
     def off_centre(self) -> bool:
         """Whether the impact is not symmetric about the middle: only a model of the full beam takes it."""
-        turned = self.rotation or self.first_touch or self.left_end != self.right_end
-        return bool(turned) or self.places != {-place for place in self.places}
+        begin, end = self.wall_span
+        apart = any(getattr(self, name) for name, about in places_of(type(self)).items() if about.load)
+        return bool(self.rotation or self.first_touch or self.left_end != self.right_end or begin != -end or apart)
 
     @property
     def supported(self) -> bool:
@@ -255,8 +256,8 @@ class Scales(Part):
 
     @property
     def places(self) -> set[float]:
-        """Where nodes stand whatever the mesh, m from the middle: the edges of the wall, an end of the beam among
-        them, and further fields that are places."""
+        """Where nodes stand whatever the mesh, m from the middle: the edges of the wall, or the ends of the beam, and
+        further fields that are places."""
         return {*self.wall_span, *(x for name in places_of(type(self)) if (x := getattr(self, name)) is not None)}
 
     @property

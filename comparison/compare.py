@@ -19,7 +19,7 @@ from bent_beam.measure.instant import so_far
 from bent_beam.measure.reduction import peak_moment
 from bent_beam.method import Method, method_type
 from bent_beam.versions import versions
-from comparison.readable import shown, text_table, unit_for
+from comparison.readable import milliseconds, shown, text_table, unit_for
 
 CURVES = ("total_impulse", "kinetic_energy", "strain_energy")
 
@@ -104,14 +104,15 @@ def comparison_text(found: dict[str, Any], first: str, second: str) -> str:
     for name, (a, b) in found["end"].items():
         scale, unit = unit_for(units[name], [a, b])
         values = [f"{scale * a:.6g}", f"{scale * b:.6g}"]
-        rows.append([name.replace("_", " "), *values, unit, shown(apart.get(name), ".2g")])
+        title = "end of the run" if name == "time" else name.replace("_", " ")
+        rows.append([title, *values, unit, shown(apart.get(name), ".2g")])
     rows.append(["gap at the end", "", "", "V0 t", shown(apart["gap"], ".2g")])
     lines = [
         text_table(["", first, second, "unit", "largest difference"], rows),
         "",
-        "Numbers at the end of the common time. Differences: the largest over the curve, as a share of the first run's",
-        "largest value. Energies are those of the part of the beam that a run models; kinetic energies of unlike parts",
-        "have no difference.",
+        f"Numbers at the end of the common time, {milliseconds(min(found['end']['time']))}. Differences: the largest",
+        "over the curve, as a share of the first run's largest value. Energies are those of the part of the beam that a",
+        "run models; kinetic energies of unlike parts have no difference.",
         "The two impacts are the same." if found["same_impact"] else "The two impacts differ.",
     ]
     changed = [row for part in ("impact", "settings", "versions") for row in _changed(found[part])]

@@ -30,7 +30,7 @@ from comparison.bounced import documents
 from comparison.bouncing import bounce
 from comparison.doubts import doubts, wide_bars
 from comparison.predicting import numbers_at, runs_to
-from comparison.readable import flat, readable, text_table, unit_for
+from comparison.readable import flat, milliseconds, readable, text_table, unit_for
 from comparison.rows import failures, reason_of
 from comparison.store import RunStore
 from comparison.whole_numbers import WHOLE
@@ -231,8 +231,11 @@ class SweepTable:
             body.append([readable(value) for value in row.varied.values()] + cells)
         kept = f"± is the error bar. {self.kept} of {len(self.rows)} rows came from the store."
         lines = [text_table(head, body), "", kept]
-        if any(row.until is not None for row in self.rows):
-            lines.append("Between two walls or supports no separation is the last: numbers until the case's end time.")
+        if ends := sorted({row.until for row in self.rows if row.until is not None}):
+            lines.append(
+                "Between two walls or supports no separation is the last: numbers until the case's end time, "
+                f"{' to '.join(map(milliseconds, ends[:1] + ends[1:][-1:]))}."
+            )
         said = [(f"no numbers: {row.reason}", row.name) for row in self.rows if row.reason]
         said += [(f"warning: {text}", row.name) for row in self.rows for text in row.warnings]
         told: dict[str, list[str]] = {}  # each sentence once, and of which rows it is

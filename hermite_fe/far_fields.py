@@ -48,7 +48,9 @@ class FarField(Part, ABC):
 
     where: ClassVar[str] = "far_field"
 
-    end: Annotated[str, Quantity("", "end of the beam: free, or moving as a continued beam", choices=ENDS)] = "free"
+    end: Annotated[
+        str, Quantity("", "of the beam: free, or with what y₀ needs there, as if the beam went on", choices=ENDS)
+    ] = "free"
 
     @abstractmethod
     def dampings(self, beam: HermiteBeam, impact: Impact) -> Dampings:

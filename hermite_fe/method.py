@@ -18,7 +18,7 @@ from bent_beam.meshes import MESHES, UniformMesh
 from bent_beam.method import Save, made_of, separation_times
 from hermite_fe import resolution, whole_beam
 from hermite_fe.contacts import CONTACTS, NodeContact
-from hermite_fe.far_fields import FAR_FIELDS, GridViscosity
+from hermite_fe.far_fields import FAR_FIELDS, GridViscosity, Sponge
 from hermite_fe.integrators import INTEGRATORS, MoreauJean, SignoriniPosition
 from hermite_fe.masses import MASSES
 from hermite_fe.model import BeamModel
@@ -106,6 +106,11 @@ class HermiteFE(Composition):
                 "domain cuts a free beam that touches at its middle alone, before one long wall, at first: "
                 f"leave it out here (got {self.domain!r})"
             )
+        if isinstance(self.far_field, Sponge) and end_time is None:
+            raise InputError(
+                "far_field.kind: a sponge takes what the ends send back, a part of a whole impact: take viscosity "
+                f"(got strength {self.far_field.strength!r})"
+            )
         wall = wall_scales(impact)
         mesh = (self.mesh or UniformMesh(whole_beam.element(impact, end_time))).refined(self.refine)
         shortest = float(np.diff(mesh.nodes(impact.half_length)).min())
@@ -149,11 +154,8 @@ class HermiteFE(Composition):
     def varied(self, impact: Impact, random: np.random.Generator) -> Self:
         """A copy for an ensemble: elements, steps and impact law drawn at random.
 
-        Moreau–Jean with θ = ½ throughout, which keeps the energy between impacts; where the wall gives way, what is
-        chosen for it.
+        Moreau–Jean with θ = ½ throughout, which keeps the energy between impacts.
         """
-        if impact.wall_stiffness is not None:
-            return self.refined(2.0 ** random.uniform(-1.0, 0.0)).for_whole_beam(impact)
         length = impact.half_length / int(random.integers(2 * whole_beam.ELEMENTS // 5, 4 * whole_beam.ELEMENTS // 5))
         step = 2.0 ** random.uniform(-1.0, 1.0) * length**2 / impact.wave_constant
         restitution = (0.0, 0.5, 1.0)[int(random.integers(3))]

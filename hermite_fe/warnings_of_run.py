@@ -9,14 +9,14 @@ import numpy as np
 from bent_beam.history import REFLECTED, ImpactHistory
 from bent_beam.impact import WAVES_FELT, Impact
 from hermite_fe.compiled import Array
-from hermite_fe.far_fields import FarField
+from hermite_fe.far_fields import FarField, Sponge
 from hermite_fe.integrators import Integrator
 from hermite_fe.model import BeamModel
 from hermite_fe.resolution import front
 
 ELEMENTS_PER_FRONT = 2.0  # fewer in ℓ deserve a warning
 MOST_ROUNDS = 100  # of the active set in one step; sound runs take ten or so
-BY_GRID = "; grid viscosity damps it, of which HermiteFE().for_whole_beam(impact) has none"
+BY_GRID = "; {} damps it, of which HermiteFE().for_whole_beam(impact) has none"
 LARGEST_LIFT = 1e-2  # of V₀t; r₀ may be too large by as much (docs/numerics.md)
 EMITTED = 10.0 ** np.arange(-9.0, 1.0, 0.02)  # T*: times at which waves are looked at, the same for all runs
 DAMPED = 4.0  # elements within √(cη), or within l_s, from which on all schemes lift a zone alike (within a fifth)
@@ -76,11 +76,13 @@ def end_warnings(impact: Impact, end_time: float, nodes: Array, far_field: FarFi
     reached, thickness = np.array([front(impact, t) for t in emitted]).T
     arrival = emitted + np.maximum(2.0 * half - reached, 0.0) * thickness / (2.0 * impact.wave_constant)
     returning = arrival[(last < thickness) & (arrival < end_time) & (emitted > 0.01 * arrival)]
+    absorber = "grid viscosity" if getattr(far_field, "viscosity", 0.0) else ""
+    absorber = "the sponge" if isinstance(far_field, Sponge) else absorber
     if returning.size:
         out.append(
             f"{REFLECTED} (x = {half:.3g} m) and be back at the contact from about "
             f"t = {float(returning.min()):.2g} s on: from then on it is the impact of this beam, which no theory of an "
-            f"endless one covers{BY_GRID if getattr(far_field, 'viscosity', 0.0) else ''}"
+            f"endless one covers{BY_GRID.format(absorber) if absorber else ''}"
         )
     far = nodes > 1.5 * place
     free = impact.free_motion(impact.relative_curvature)(nodes, end_time)

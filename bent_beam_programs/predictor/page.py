@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from bent_beam.files import write_atomically
+from bent_beam.hysteresis import SOFT
 from bent_beam.measure.numbers import FACTOR
 from bent_beam_programs.predictor.coefficients import coefficients
 from comparison.bouncing import DAMPING_RATIOS, RETURNS
@@ -34,8 +35,8 @@ DOUBTS = {"wide": WIDE, "least_restitution": LEAST_RESTITUTION, "steep": STEEP, 
           "straightened": STRAIGHTENED}  # fmt: skip
 """From when on ``bentbeam bounce`` warns."""
 BARS = {"factor": FACTOR, "least": LEAST, "light": LIGHT, "leastLight": LEAST_LIGHT, "chatter": CHATTER,
-        "returns": RETURNS, "ratios": DAMPING_RATIOS}  # fmt: skip
-"""Of its error bars, and the damping ratios that it takes where none is stated."""
+        "returns": RETURNS, "ratios": DAMPING_RATIOS, "soft": SOFT}  # fmt: skip
+"""Of its error bars, the damping ratios that it takes where none is stated, and on which walls it takes none."""
 
 
 CONSTANTS = {

@@ -50,7 +50,9 @@ def new(
     from bent_beam.new_case import example, new_case
 
     if like is not None and not (section is None and damping_ratio is None):
-        raise InputError(f"--like {like}: the example has its section and damping; change them in {out}")
+        raise InputError(
+            f"--like {like}: the example states its section and whether it is damped: change that in {out}"
+        )
     text = new_case(section or "pipe", damping_ratio) if like is None else example(like)
     check_out(out, overwrite)
     write_atomically(out, text)

@@ -61,7 +61,8 @@ def test_the_range_of_the_loss_reaches_the_first_instants_of_a_fast_impact() -> 
     assert reached[1] > 10.0 * reached[0]
 
 
-def test_a_whole_impact_has_numbers_with_damping_or_a_loss_of_some_size() -> None:
+def test_a_whole_impact_has_numbers_with_damping_or_a_loss_of_some_size_or_on_a_wall_that_gives_way() -> None:
     damped = Impact.whole_beam(2.0, relative_damping=1e-6)
     beams = (Impact.whole_beam(2.0), damped, lossy(0.9 * LEAST_LOSS), lossy(LEAST_LOSS))
     assert [converges(beam) for beam in beams] == [False, True, False, True]
+    assert converges(beams[0].replace(wall_stiffness=1e4))

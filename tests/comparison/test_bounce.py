@@ -61,6 +61,17 @@ def test_a_bounce_off_a_wall_that_gives_way_has_its_largest_force_and_gives_its_
     assert asked <= titles and not any("largest impulse within" in title for title in titles)
 
 
+def test_without_damping_a_soft_wall_leaves_numbers_and_a_stiff_one_a_band() -> None:
+    coarse = HermiteFE(mesh=UniformMesh(1.0 / 20))
+    soft, stiff = (problem(0.5, 0.0).replace(wall_stiffness=0.05**-4 * share) for share in (0.99, 1.01))
+    found = bounce(soft, coarse)
+    assert {"mesh_and_step", "finer"} <= set(found.numbers["impulse"].parts) and found.runs.question.band is None
+    assert not any("irregular" in line for line in found.warnings)
+    assert Question(stiff, coarse, band=(2, 1)).companions() and isinstance(
+        bounce(stiff, coarse, runs=2).numbers["impulse"], Band
+    )
+
+
 @pytest.mark.parametrize(("begin", "end", "told"), [(-0.1, 0.1, False), (0.3, 0.9, True)])
 def test_a_beam_that_turns_off_the_edge_of_a_plate_may_come_back(begin, end, told) -> None:
     found = bounce(problem(0.5, 1e-2).replace(wall_from=begin, wall_to=end), HermiteFE(mesh=UniformMesh(1.0 / 20)))

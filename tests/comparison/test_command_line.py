@@ -13,6 +13,7 @@ from histories import pushed_until
 
 from bent_beam import ImpactHistory, SimulationError
 from comparison.command_line.app import run
+from comparison.compare import comparison_text
 from hermite_fe import HermiteFE
 from self_similar_fe import SelfSimilarFE
 
@@ -40,6 +41,8 @@ def test_both_paths_say_what_theory_says_and_their_stored_runs_are_drawn_and_com
     found = answered("compare", *files)
     assert found["same_impact"] and found["paths"] == ["hermite", "exudyn"]
     assert max(found["largest_difference"][name] for name in ("total_impulse", "gap")) < 0.01  # two codes, one impact
+    said = comparison_text(found | {"end": found["end"] | {"time": [0.002, 0.004]}}, "a", "b")
+    assert "end of the run" in said and "common time, 2 ms." in said  # at which all others are told
 
 
 def test_a_match_whose_rows_are_all_refused_is_bad_input_and_still_a_document(capsys):

@@ -61,6 +61,8 @@ def test_between_two_walls_a_row_is_what_predict_would_say_at_the_end_time(case)
     run = answered("simulate", case, *words, "--set", "impact.velocity=1.0")
     assert row["until"] == 0.002 and row["restitution"] is None
     assert (row["peak_moment"]["value"], row["peak_moment"]["error"]) == (run["peak_moment"], run["peak_moment_error"])
+    said = command("sweep", case, "--jobs", 1, "--vary", "impact.velocity=1", *words)[1]
+    assert "numbers until the case's end time, 2 ms." in said
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ from bent_beam.meshes import UniformMesh
 from hermite_fe import HermiteFE, simulate
 from hermite_fe.constraints import ContactLaw
 from hermite_fe.contacts import AlternateContact, MeanContact, MiddleContact, NodeContact
-from hermite_fe.far_fields import GridViscosity
+from hermite_fe.far_fields import GridViscosity, Sponge
 from hermite_fe.integrators import (
     GeneralizedAlphaPenalty,
     MasslessBoundary,
@@ -82,6 +82,8 @@ REFUSED = [
     (lambda: HermiteFE(integrator=GeneralizedAlphaPenalty()).simulate(LOSSY.unsheared), "loss needs .*Penalty"),
     (lambda: simulate(LOSSY), "hysteretic_loss" + WAY),
     (lambda: simulate(SHEARED, contact=MiddleContact()), r"contact\.kind" + WAY),
+    (lambda: simulate(SHEARED.replace(wall_stiffness=1e3), contact=MiddleContact()), "has no effect on a wall"),
+    (lambda: HermiteFE(far_field=Sponge()).simulate_to_separation(SHEARED), "sponge takes what the ends send back"),
     # a largest pull
     *((lambda kind=kind: at_rest(ALL[kind](1e-4), 1.0, law=ContactLaw(strength=np.ones(1))), "needs moreau_jean")
       for kind in ("penalty", "velocity", "position_velocity_acceleration")),

@@ -275,7 +275,9 @@ RUBBER = {"wall_stiffness": 2e5, "wall_damping_ratio": 0.2}
 
 
 @needs_node
-@pytest.mark.parametrize("wall", [{}, pytest.param(RUBBER, marks=pytest.mark.verify)])
+@pytest.mark.parametrize(
+    "wall", [{}, *(pytest.param(RUBBER | more, marks=pytest.mark.verify) for more in ({}, {"damping_ratio": 0.0}))]
+)
 def test_a_whole_impact_is_that_of_bounce_within_bars(wall: dict[str, float]) -> None:
     """A sheared tube, slower and with more damping than at the start, on a floor or on a rubber mat. On the floor the
     schemes are the same."""

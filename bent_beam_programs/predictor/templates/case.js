@@ -111,11 +111,10 @@ const Case = (() => {
 
   /** What to do with a key that this page does not have. */
   const INSTEAD = [
-    [/^(wall\.(from|to|opposite|clearance)|beam\.ends|impact\.(rotation|first_touch))$/, "bentbeam simulate takes it"],
     [/^beam\.(damping$|loss_|hysteretic)/, "give beam.damping_ratio in its place, or take bentbeam bounce"],
     [/^impact\.(amplitude|frequency|angular_)/, "give impact.velocity in its place"],
     [/^beam\.(bending_stiffness|mass_per_length|section_height)$/, 'give a [section] of kind "general" in its place'],
-    [/./, "bentbeam predict takes it"],
+    [/./, "bentbeam simulate takes it"],
   ];
 
   const NEEDED = ["section.youngs_modulus", "section.density", "beam.length"];

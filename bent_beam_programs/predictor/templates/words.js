@@ -43,14 +43,14 @@ const Words = (() => {
   /** What a reader must know of the numbers; whole: whether every bar is there. */
   function warnings(b, { restitution, moment }, problem, whole) {
     const wide = (one, least = 0) => one.bar > DOUBTS.wide * Math.max(Math.abs(one.value), least);
-    const wides = whole && problem.eta && (wide(moment) || wide(restitution, DOUBTS.least_restitution));
+    const settled = Answer.converges(problem), wides = whole && settled && (wide(moment) || wide(restitution, DOUBTS.least_restitution));
     const back = restitution.value !== null && problem.load + problem.pull > 0;
     const pull = b.tension * b.length ** 2 / (Math.PI ** 2 * b.stiffness); // over the buckling load
     const bends = pull > 0 ? "straightens it" : "bends it further";
     const radius = Math.sqrt(b.turning / b.mass); // of gyration, of a beam that shears
     const said = [
-      [!problem.eta, "Without damping the outcome is irregular and does not converge: a band is given."],
-      [!problem.eta, `${COMMAND} takes more runs for it.`],
+      [!settled, "Without damping the outcome is irregular and does not converge: a band is given."],
+      [!settled, `${COMMAND} takes more runs for it.`],
       [wides, "The bars are wide: elements, steps and contact law decide here."],
       [wides, `${COMMAND} --set hermite.refine=2 takes finer elements.`],
       [!b.shear, "Short waves are faster without shear; this page takes few elements, and its bars count that."],
