@@ -111,8 +111,8 @@ def comparison_text(found: dict[str, Any], first: str, second: str) -> str:
         text_table(["", first, second, "unit", "largest difference"], rows),
         "",
         f"Numbers at the end of the common time, {milliseconds(min(found['end']['time']))}. Differences: the largest",
-        "over the curve, as a share of the first run's largest value. Energies are those of the part of the beam that a",
-        "run models; kinetic energies of unlike parts have no difference.",
+        "over the curve, as a share of the first run's largest value. Energies are those of the part of the beam that",
+        "a run models; kinetic energies of unlike parts have no difference.",
         "The two impacts are the same." if found["same_impact"] else "The two impacts differ.",
     ]
     changed = [row for part in ("impact", "settings", "versions") for row in _changed(found[part])]
