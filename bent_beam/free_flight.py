@@ -97,8 +97,8 @@ def has_left(history: ImpactHistory) -> bool:
 
 
 def may_return(history: ImpactHistory) -> bool:
-    """Whether a beam that no load presses may come back to its wall after the end of a run: what swings about a hinge
-    does under tension, what is free unless (1) forbids it; with a uniform pull it is farther from the wall still."""
+    """Whether a beam that has left may come back to its wall after the end of a run. A beam on a hinge does under
+    tension. A free one may unless (1) forbids it; a uniform pull only takes it farther away."""
     impact = history.impact
     if impact.supported:
         return impact.axial_force > 0.0

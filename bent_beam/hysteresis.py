@@ -76,7 +76,8 @@ def is_damped(impact: Scales) -> bool:
 
 
 def converges(impact: Scales) -> bool:
-    """Whether a whole impact has numbers that finer elements come to: that of a damped beam, or on a soft wall."""
+    """Whether a whole impact has numbers that finer elements come to: that of a damped beam, or on a soft wall, whose
+    ℓ_k is :data:`SOFT` L/2 at least."""
     wall = wall_scales(impact)
     return is_damped(impact) or (wall is not None and wall.length >= SOFT * impact.half_length)
 

@@ -63,8 +63,11 @@ class Feature(Quantity):
 
 @dataclass(frozen=True)
 class Place(Feature):
-    """A field that is a place of the beam, m from its middle: both paths put a node there. outside : what to do where
-    it is none. load : of which load it is the place, without which it has no effect ("": an edge of the wall)."""
+    """A field that is a place of the beam, m from its middle: both paths put a node there.
+
+    outside : what a refusal of a place off the beam adds. load : the load whose place it is, without which it has no
+    effect; "" for an edge of the wall.
+    """
 
     outside: str = ""
     load: str = ""

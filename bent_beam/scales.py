@@ -256,8 +256,8 @@ class Scales(Part):
 
     @property
     def places(self) -> set[float]:
-        """Where nodes stand whatever the mesh, m from the middle: the edges of the wall, or the ends of the beam, and
-        further fields that are places."""
+        """Where nodes stand whatever the mesh, m from the middle: the edges of the wall (without them the ends of the
+        beam), and the places of forces."""
         return {*self.wall_span, *(x for name in places_of(type(self)) if (x := getattr(self, name)) is not None)}
 
     @property

@@ -146,9 +146,10 @@ class Bounce:
         elif not self.left:
             found.append(f"a run ended with the beam at the wall: {stays}")
         elif pressed or self.outcome.again or self.outcome.may_return:
-            swings = self.impact.supported and self.outcome.may_return
-            back = "the loads bring the beam back" if pressed or swings else "the beam comes back"
-            back = back if pressed or swings or self.outcome.again else "the beam may come back"
+            if pressed or (self.impact.supported and self.outcome.may_return):
+                back = "the loads bring the beam back"
+            else:
+                back = "the beam comes back" if self.outcome.again else "the beam may come back"
             found.append(
                 f"{back} to the wall; these numbers are those of the first hit, later ones may be larger: "
                 "bentbeam bounce --hits 3 lists three"

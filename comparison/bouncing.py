@@ -1,9 +1,9 @@
 """The whole impact of one beam: e, impulse, times, moment, stress, energies, with bars; without damping, bands.
 
-Damping has three states. Stated: numbers. Stated 0, or little hysteretic loss: the motion does not converge
-(docs/whole_impact.md); an ensemble of runs, meshes, steps and contact laws drawn from a seed, gives mean and standard
-deviation. Not stated: numbers at each of :data:`DAMPING_RATIOS`, and the answer is that of the largest moment, so of
-the largest stress.
+Damping has three states. Stated: numbers. Stated 0, or little hysteretic loss: the motion does not converge unless the
+wall is soft (docs/whole_impact.md); an ensemble of runs, meshes, steps and contact laws drawn from a seed, gives mean
+and standard deviation. Not stated: numbers at each of :data:`DAMPING_RATIOS`, and the answer is that of the largest
+moment, so of the largest stress.
 """
 
 from __future__ import annotations
@@ -94,7 +94,8 @@ def bounce(
     for name, value in (("runs", runs), ("seed", seed)):
         if value is not None and not ensemble:
             raise InputError(
-                f"{name} has no effect: only a beam whose damping is stated as 0 has an ensemble (got {value!r})"
+                f"{name} has no effect: only a beam whose damping is stated as 0, and whose wall is not soft, has an "
+                f"ensemble (got {value!r})"
             )
     how: dict[str, Any] = {"store": store, "jobs": jobs}
     if not case.damping_stated and not (impact.damping or impact.hysteretic_loss):

@@ -7,8 +7,9 @@
 - later, and for the whole impact: of the whole beam, strictly unilateral, with no damping but the beam's own.
 
 Companions: a run of half as many elements and steps. Later also a run with another contact law: no refinement of one
-scheme shows what the scheme does. Without damping late motion does not converge; the companions are then runs whose
-elements, steps and contact laws are drawn from a seed. Such a beam also keeps the short waves that its ends send back
+scheme shows what the scheme does. Without damping late motion does not converge, unless the wall is soft, where a
+run of twice as many elements is added; else the companions are runs whose elements, steps and contact laws are drawn
+from a seed. Such a beam also keeps the short waves that its ends send back
 at once. Grid viscosity absorbs them in a run and in its coarser companion alike, and their difference does not show it:
 an early question has a companion more, without viscosity, on even elements. The same question gets the same numbers,
 from runs that are kept. A cause of error that no companion shows is a known size (CONTRIBUTING.md says where).
@@ -76,8 +77,8 @@ class Question:
 
     @property
     def first_spread(self) -> bool:
-        """Whether it is about the first spread of a zone about the middle of a beam before a rigid wall, which pushes
-        at its rim: where the beam shears the force acts behind the rim, under other loads than those of y₀ anywhere."""
+        """Whether it is about the first spread of a zone about the middle of a beam before a rigid wall, under no loads
+        but those that theory knows to first order. It pushes at its rim; where the beam shears, behind the rim."""
         known = (*(load for load, about in loads_of(Impact).items() if about.group), "hysteretic_loss")
         return unmodelled(self.impact, known) is None and not self.impact.off_centre and not self.late
 
@@ -106,7 +107,7 @@ class Question:
             drawn = self._drawn(DRAWN, SEED) if self.band is None else self._drawn(*self.band)[1:]
             return {f"drawn_{i}": (self.impact, one) for i, one in enumerate(drawn)}
         chosen, others = self.run_by, dict[str, Method]()
-        # without damping, on a wall that gives way, coarser runs alone may agree by chance
+        # without damping, before a soft wall, a coarser run may agree by chance
         factors = ERROR_BARS["thorough" if self.late and not is_damped(self.impact) else self.error_bars]
         for name, factor in (("mesh_and_step", COARSER), ("finer", FINER)):
             if factor in factors and (other := refined(chosen, factor)) is not None:

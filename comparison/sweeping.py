@@ -234,7 +234,7 @@ class SweepTable:
         if ends := sorted({row.until for row in self.rows if row.until is not None}):
             lines.append(
                 "Between two walls or supports no separation is the last: numbers until the case's end time, "
-                f"{' to '.join(map(milliseconds, ends[:1] + ends[1:][-1:]))}."
+                f"{' to '.join(map(milliseconds, dict.fromkeys((ends[0], ends[-1]))))}."
             )
         said = [(f"no numbers: {row.reason}", row.name) for row in self.rows if row.reason]
         said += [(f"warning: {text}", row.name) for row in self.rows for text in row.warnings]

@@ -121,7 +121,7 @@ def assemble(layout: Layout, chosen: Chosen, *, si: bool = False) -> tuple[Beam,
             hold(node, *held[end])
     if scaling.load:
         beam.load_uniformly(scaling.load * scaling.amplitude)
-    # a load without a term of y₀ is added here; of a force in the middle half a beam takes half
+    # a load without a term of y₀ is added here, at its node; half a beam takes half of a force in the middle
     for node, sign, _ in reversed(ends):
         _load_end(beam, node, sign, follows=layout.ends_follow)
     run = chosen.contact.attach(beam, _wall(beam, chosen))

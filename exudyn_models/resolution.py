@@ -158,8 +158,8 @@ def _step_over_elements(mesh: Mesh, scaling: Scaling) -> float:
 
 
 def reachable(x: Array, scaling: Scaling, centre: int) -> Indices:
-    """Nodes that may touch: half as far again as the free motion would carry the beam into the wall, and all where
-    waves from the ends may throw any of them at it, an end is held, or the wall is a plate.
+    """Nodes that may touch: half as far again as the free motion would carry the beam into the wall. All of them
+    between two walls, of a beam that rocks or has a held end, before a plate or a stop, and once waves are back.
 
     A growing velocity (χ > 0) or an upward bent end (ψ > 0) would bring the far field to the wall: let through."""
     impact = scaling.impact

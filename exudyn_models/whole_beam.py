@@ -128,7 +128,7 @@ def varied(method: M, impact: Impact, random: np.random.Generator) -> M:
     elements = int(random.integers(2 * POINT_ELEMENTS // 5, 4 * POINT_ELEMENTS // 5))
     length = impact.half_length / elements
     step = STEP * 2.0 ** random.uniform(-0.5, 0.5) * length**2 / impact.wave_constant
-    contact = _softer(UNHELD, 2.0 ** random.uniform(-2.0, 0.0))
+    contact = _softer(UNHELD, 2.0 ** random.uniform(-2.0, 0.0)) if impact.wall_stiffness is None else None
     return dataclasses.replace(
         method, mesh=UniformMesh(length), integrator=Trapezoidal(time_step=step), contact=contact
     )

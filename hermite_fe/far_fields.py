@@ -49,7 +49,8 @@ class FarField(Part, ABC):
     where: ClassVar[str] = "far_field"
 
     end: Annotated[
-        str, Quantity("", "of the beam: free, or with what y₀ needs there, as if the beam went on", choices=ENDS)
+        str,
+        Quantity("", "of the beam: free, or with the end forces of the free motion, as if it went on", choices=ENDS),
     ] = "free"
 
     @abstractmethod

@@ -106,11 +106,6 @@ class HermiteFE(Composition):
                 "domain cuts a free beam that touches at its middle alone, before one long wall, at first: "
                 f"leave it out here (got {self.domain!r})"
             )
-        if isinstance(self.far_field, Sponge) and end_time is None:
-            raise InputError(
-                "far_field.kind: a sponge takes what the ends send back, a part of a whole impact: take viscosity "
-                f"(got strength {self.far_field.strength!r})"
-            )
         wall = wall_scales(impact)
         mesh = (self.mesh or UniformMesh(whole_beam.element(impact, end_time))).refined(self.refine)
         shortest = float(np.diff(mesh.nodes(impact.half_length)).min())
@@ -154,8 +149,11 @@ class HermiteFE(Composition):
     def varied(self, impact: Impact, random: np.random.Generator) -> Self:
         """A copy for an ensemble: elements, steps and impact law drawn at random.
 
-        Moreau–Jean with θ = ½ throughout, which keeps the energy between impacts.
+        Moreau–Jean with θ = ½ throughout, which keeps the energy between impacts; where the wall gives way, what is
+        chosen for it.
         """
+        if impact.wall_stiffness is not None:
+            return self.refined(2.0 ** random.uniform(-1.0, 0.0)).for_whole_beam(impact)
         length = impact.half_length / int(random.integers(2 * whole_beam.ELEMENTS // 5, 4 * whole_beam.ELEMENTS // 5))
         step = 2.0 ** random.uniform(-1.0, 1.0) * length**2 / impact.wave_constant
         restitution = (0.0, 0.5, 1.0)[int(random.integers(3))]
@@ -175,6 +173,11 @@ class HermiteFE(Composition):
         progress: Callable[[float], None] | None = None,
     ) -> ImpactHistory:
         """Follow ``impact`` until the beam has left for good (:func:`bent_beam.method.simulate_to_separation`)."""
+        if isinstance(self.far_field, Sponge):
+            raise InputError(
+                "far_field.kind: a sponge absorbs waves that the ends send back, and these belong to a whole impact: "
+                f"take viscosity (got strength {self.far_field.strength!r})"
+            )
         times, separation = separation_times(impact, longest, save), Separation(impact)
 
         def until(model: BeamModel, run: Stepper) -> bool:

@@ -172,7 +172,7 @@ def nodal_loads(
     """
     motion, load = impact.free_motion(0.0), np.zeros((2, beam.dofs))
     uniform = product(inertia, beam.interpolate(np.ones(s.size), np.zeros(s.size)))  # M·1
-    # a load without a term of y₀ is added here, by beam.nodes from the middle; of a force there half a beam takes half
+    # a load without a term of y₀ is added here, at its node; half a beam takes half of a force in the middle
     load[0] = float(motion(0.0, by_t=2)) * uniform
     if follows:
         bent = motion.bending()

@@ -16,7 +16,7 @@ from hermite_fe.resolution import front
 
 ELEMENTS_PER_FRONT = 2.0  # fewer in ℓ deserve a warning
 MOST_ROUNDS = 100  # of the active set in one step; sound runs take ten or so
-BY_GRID = "; {} damps it, of which HermiteFE().for_whole_beam(impact) has none"
+ABSORBED = "; {} damps it, of which HermiteFE().for_whole_beam(impact) has none"
 LARGEST_LIFT = 1e-2  # of V₀t; r₀ may be too large by as much (docs/numerics.md)
 EMITTED = 10.0 ** np.arange(-9.0, 1.0, 0.02)  # T*: times at which waves are looked at, the same for all runs
 DAMPED = 4.0  # elements within √(cη), or within l_s, from which on all schemes lift a zone alike (within a fifth)
@@ -82,7 +82,7 @@ def end_warnings(impact: Impact, end_time: float, nodes: Array, far_field: FarFi
         out.append(
             f"{REFLECTED} (x = {half:.3g} m) and be back at the contact from about "
             f"t = {float(returning.min()):.2g} s on: from then on it is the impact of this beam, which no theory of an "
-            f"endless one covers{BY_GRID.format(absorber) if absorber else ''}"
+            f"endless one covers{ABSORBED.format(absorber) if absorber else ''}"
         )
     far = nodes > 1.5 * place
     free = impact.free_motion(impact.relative_curvature)(nodes, end_time)

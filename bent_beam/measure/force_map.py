@@ -30,9 +30,9 @@ def force_map(history: ImpactHistory, kept: NDArray[np.int64], edges: Array) -> 
 def spread(places: Array, amounts: Array, edges: Array) -> Array:
     """Amounts of contact points put into bins, each evenly over its share of the beam, the outermost up to itself."""
     middles = 0.5 * (places[1:] + places[:-1])
-    first = (
-        0.0 if 0.0 < places[0] < places[1] - places[0] else places[0]
-    )  # in the middle of the first element of a half
-    borders = np.concatenate([[first], middles, [places[-1]]])
+    begin = float(places[0])
+    if 0.0 < begin < float(np.diff(places).min(initial=0.0)):  # the middle of the first element of a half beam
+        begin = 0.0
+    borders = np.concatenate([[begin], middles, [places[-1]]])
     gathered = np.concatenate([[0.0], np.cumsum(amounts)])
     return np.diff(np.interp(edges, borders, gathered))

@@ -71,12 +71,13 @@ def _pushed_at(history: ImpactHistory, time: float) -> tuple[float, str] | tuple
 
 
 def _sharpness(history: ImpactHistory, when: float) -> float:
-    """By how much the force of a step at ``when`` is above the mean of both beside, N, as from saved instants: with
-    their distance it grows like its square where the force is smooth, like itself where it has a kink."""
+    """By how much the force of a step at ``when`` stands above the mean of the steps beside it, N. It is estimated from
+    saved instants: with their distance this grows like its square where the force is smooth, and in proportion where
+    it has a kink."""
     spans = np.diff(history.time)
     if spans.size < 5:
         return 0.0
-    forces = np.diff(history.array("total_impulse")) / spans
+    forces = np.abs(np.diff(history.array("total_impulse"))) / spans  # its sign says which of two walls pushes
     k = min(max(int(np.searchsorted(history.time, when)) - 1, 2), forces.size - 3)
     near, far = (float(forces[k] - 0.5 * (forces[k - i] + forces[k + i])) for i in (1, 2))
     if near <= 0.0:

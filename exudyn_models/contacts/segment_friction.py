@@ -4,8 +4,8 @@
 
 Exudyn knows this contact against a circle only, and too large a circle drowns the gap in round-off. So the wall takes
 over a share of the beam's curvature, against which the beam is laid flatter: all of it in the linear limit (gap, load
-and elastic forces are the same to first order, but for those of an axial force, which needs the bow), a quarter with
-the true geometry. Friction works along the beam: of second order in the deflection, it changes nothing in the linear
+and elastic forces are the same to first order; an axial force is refused, as it acts on the bow), a quarter with the
+true geometry. Friction works along the beam: of second order in the deflection, it changes nothing in the linear
 limit and little for an axially stiff beam.
 """
 

@@ -83,7 +83,7 @@ REFUSED = [
     (lambda: simulate(LOSSY), "hysteretic_loss" + WAY),
     (lambda: simulate(SHEARED, contact=MiddleContact()), r"contact\.kind" + WAY),
     (lambda: simulate(SHEARED.replace(wall_stiffness=1e3), contact=MiddleContact()), "has no effect on a wall"),
-    (lambda: HermiteFE(far_field=Sponge()).simulate_to_separation(SHEARED), "sponge takes what the ends send back"),
+    (lambda: HermiteFE(far_field=Sponge()).simulate_to_separation(SHEARED), "sponge absorbs waves"),
     # a largest pull
     *((lambda kind=kind: at_rest(ALL[kind](1e-4), 1.0, law=ContactLaw(strength=np.ones(1))), "needs moreau_jean")
       for kind in ("penalty", "velocity", "position_velocity_acceleration")),

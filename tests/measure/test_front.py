@@ -84,6 +84,7 @@ def test_the_map_of_forces_holds_the_impulse_and_a_pull_is_a_share_of_a_push_in_
     assert near == pytest.approx((impulse[40] - impulse[30])[:6].sum() * impact.time_scale / (0.5 * 8.0), rel=1e-9)
     plate = spread(np.array([0.25, 0.26, 0.27]), np.ones(3), np.array([0.0, 0.25, 0.3]))
     assert plate == pytest.approx([0.0, 3.0])  # nothing before its edge
+    assert spread(np.array([0.3]), np.ones(1), np.array([0.0, 0.25, 0.35])) == pytest.approx([0.0, 1.0])
     impulse = 1e-3 * np.outer(np.arange(41.0), [3.0, 2.0, 1.0])
     impulse[30:, 1] -= 4e-3
     assert pull_of(history_of(time, x[:3], impact=impact, impulse=impulse)) == pytest.approx(2.0 / 3.0)

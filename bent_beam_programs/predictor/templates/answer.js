@@ -20,7 +20,7 @@ const Answer = (() => {
       steps: round(min(max(8000, 100 / length ** 2), 30000)) };
   }
 
-  /** The runs behind the numbers of p, by name: `base` and its companions, or, undamped, an ensemble. */
+  /** The runs behind the numbers of p, by name: `base` and its companions, or, where they do not converge, an ensemble. */
   function runs(p) {
     const base = resolution(p), part = (s) => ({ ...base, elements: round(s * base.elements), steps: s * base.steps });
     const half = part(0.5), between = part(0.7); // springs err by where the rim stands between nodes: half may agree by chance
