@@ -216,8 +216,10 @@ def _in_the_books(result: Result, found: Score) -> bool:
 
 
 def _settled(result: Result, found: Score) -> bool:
-    """Whether a pull is declared, or read off impulses that are smooth: those that jitter fall, too."""
-    return not result.pull_is_read_off or (found.figure("noise_in_time") or 0.0) < PART / 2.0
+    """Whether a pull is declared, or read off impulses that are smooth: those that jitter fall, too. And of a wall that
+    is not penetrated: dashpots beside soft springs pull, too."""
+    smooth = not result.pull_is_read_off or (found.figure("noise_in_time") or 0.0) < PART / 2.0
+    return smooth and "penetration" not in {one.name for one in found.symptoms}
 
 
 BOOKS = ("momentum", _in_the_books, "every step's impulse of every point, once; the beam's own mass")

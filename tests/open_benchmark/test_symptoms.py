@@ -50,9 +50,13 @@ def test_a_fault_shows_in_its_own_symptom_and_no_other_cause_is_named(name):
     assert not look.passes and not look.wrong_causes and look.first_symptom in FAULTS[name].first
 
 
-def test_momentum_that_a_support_may_have_taken_is_not_called_a_wrong_sum():
-    found = score(result_from_fields(drawn("clamped_end", 2147482015, 12)))
-    assert found.symptoms[0].name == "momentum" and not found.diagnosis
+@pytest.mark.parametrize(
+    ("name", "seed", "first"),
+    [("clamped_end", (2147482015, 12), "momentum"), ("damped_springs", (1940264899, 14), "pull")],
+)
+def test_what_a_support_may_have_taken_and_dashpots_beside_soft_springs_pull_has_no_cause_of_its_own(name, seed, first):
+    found = score(result_from_fields(drawn(name, *seed)))
+    assert found.symptoms[0].name == first and not found.diagnosis
 
 
 @pytest.mark.verify
