@@ -67,7 +67,7 @@ def test_a_clamped_beam_meets_a_plate_at_its_tip_with_all_points_that_stand_befo
     touched = ExudynModel(refine=0.25).simulate(beam, end_time=0.01, save=10)
     assert touched.contact_positions(0)[-1] == 1.0 and touched.array("gap")[:, -1].min() > -1e-6
     missed = ExudynModel(refine=0.25).simulate(beam.replace(curvature=0.8), end_time=0.008, save=10)
-    assert not missed.array("total_impulse").any() and not missed.array("impulse").any() and not missed.warnings
+    assert not missed.array("total_impulse").any() and not missed.array("impulse").any()
 
 
 def test_the_covered_length_of_a_straight_rim_is_exact_and_grows_without_jumps() -> None:
