@@ -7,12 +7,12 @@
 - later, and for the whole impact: of the whole beam, strictly unilateral, with no damping but the beam's own.
 
 Companions: a run of half as many elements and steps. Later also a run with another contact law: no refinement of one
-scheme shows what the scheme does. Without damping late motion does not converge, unless the wall is soft, where a
-run of twice as many elements is added; else the companions are runs whose elements, steps and contact laws are drawn
-from a seed. Such a beam also keeps the short waves that its ends send back
-at once. Grid viscosity absorbs them in a run and in its coarser companion alike, and their difference does not show it:
-an early question has a companion more, without viscosity, on even elements. The same question gets the same numbers,
-from runs that are kept. A cause of error that no companion shows is a known size (CONTRIBUTING.md says where).
+scheme shows what the scheme does. Without damping late motion converges on a soft wall only, and there a run of twice
+as many elements is added; elsewhere the companions are runs whose elements, steps and contact laws are drawn from a
+seed. Such a beam also keeps the short waves that its ends send back at once. Grid viscosity absorbs them in a run and
+in its coarser companion alike, and their difference does not show it: an early question has a companion more, without
+viscosity, on even elements. The same question gets the same numbers, from runs that are kept. A cause of error that no
+companion shows is a known size (CONTRIBUTING.md says where).
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from bent_beam import ImpactHistory, InputError
 from bent_beam.checks import one_of
 from bent_beam.hysteresis import branches_of, converges, is_damped
 from bent_beam.impact import BEFORE_WAVES_RETURN, Impact
-from bent_beam.loads import loads_of, unmodelled
+from bent_beam.loads import beyond_first_order
 from bent_beam.measure.instant import BEYOND
 from bent_beam.method import Method, for_whole_beam, refined, simulate_to_separation, simulated
 
@@ -79,8 +79,8 @@ class Question:
     def first_spread(self) -> bool:
         """Whether it is about the first spread of a zone about the middle of a beam before a rigid wall, under no loads
         but those that theory knows to first order. It pushes at its rim; where the beam shears, behind the rim."""
-        known = (*(load for load, about in loads_of(Impact).items() if about.group), "hysteretic_loss")
-        return unmodelled(self.impact, known) is None and not self.impact.off_centre and not self.late
+        lossless = self.impact.replace(hysteretic_loss=0.0, loss_frequency=None)
+        return beyond_first_order(lossless) is None and not self.impact.off_centre and not self.late
 
     @property
     def run_by(self) -> Method:

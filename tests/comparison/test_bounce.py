@@ -68,7 +68,7 @@ def test_without_damping_a_soft_wall_leaves_numbers_and_a_stiff_one_a_band() -> 
     assert {"mesh_and_step", "finer"} <= set(found.numbers["impulse"].parts) and found.runs.question.band is None
     assert not any("irregular" in line for line in found.warnings)
     assert isinstance(bounce(stiff, coarse, runs=2).numbers["impulse"], Band)
-    for path in (HermiteFE, ExudynModel):  # what they draw themselves a wall with a stiffness takes
+    for path in (HermiteFE, ExudynModel):  # an ensemble of their own states no contact, which such a wall refuses
         assert path().varied(stiff, np.random.default_rng(1)).contact is None
 
 
