@@ -136,6 +136,7 @@ class Bounce:
                 f"the beam has {own} of its own: the outcome is irregular and does not converge, so a band is "
                 "given; state a damping for numbers"
             )
+        turns = self.impact.supported or self.impact.wall_in_part or self.impact.off_centre
         pressed, stays = self.impact.net_load > 0.0, "it has not left the wall for good, so no restitution is given"
         if not self.left and pressed:
             found.append(
@@ -145,7 +146,7 @@ class Bounce:
             )
         elif not self.left:
             found.append(f"a run ended with the beam at the wall: {stays}")
-        elif pressed or self.outcome.again or self.outcome.may_return:
+        elif pressed or self.outcome.again or (self.outcome.may_return and turns):
             if pressed or (self.impact.supported and self.outcome.may_return):
                 back = "the loads bring the beam back"
             else:
