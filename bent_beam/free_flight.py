@@ -42,14 +42,13 @@ def acting(impulse: Array) -> NDArray[np.bool_]:
 def bears_free_flight(impact: Impact) -> bool:
     """Whether the beam moves without loads and supports once it is off the wall, and towards no other wall; off a plate
     or a stop that cannot be told."""
-    if impact.supported or impact.wall_in_part:
-        return False
-    return impact.net_load == 0.0 and not _forces(impact) and impact.opposite_wall is None
+    return not (impact.supported or impact.wall_in_part or impact.net_load != 0.0 or _turned_back(impact))
 
 
-def _forces(impact: Impact) -> bool:
-    """Whether a load acts that has no term of y₀."""
-    return any(about.powers is None and getattr(impact, load) for load, about in loads_of(Impact).items())
+def _turned_back(impact: Impact) -> bool:
+    """Whether another wall, or a load that has no term of y₀, may send a beam back that flies away from the wall."""
+    forces = any(about.powers is None and getattr(impact, load) for load, about in loads_of(Impact).items())
+    return forces or impact.opposite_wall is not None
 
 
 def cannot_return(impact: Impact, x: Array, gap: Array, velocity: Array, energy: float) -> bool:
@@ -104,8 +103,7 @@ def may_return(history: ImpactHistory) -> bool:
         return impact.axial_force > 0.0
     if impact.net_load < 0.0 and not impact.off_centre:
         return False
-    towards = impact.net_load > 0.0 or impact.opposite_wall is not None or _forces(impact)
-    return towards or not _stays_clear(impact, *_last(history))
+    return impact.net_load > 0.0 or _turned_back(impact) or not _stays_clear(impact, *_last(history))
 
 
 def _is_off(impact: Impact, quiet: float, state: Callable[[], State]) -> bool:

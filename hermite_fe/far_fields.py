@@ -48,10 +48,18 @@ class FarField(Part, ABC):
 
     where: ClassVar[str] = "far_field"
 
+    absorbs: ClassVar[bool] = False
+    """Whether it takes waves that the mesh carries, and that the ends of a beam send back."""
+
     end: Annotated[
         str,
         Quantity("", "of the beam: free, or with the end forces of the free motion, as if it went on", choices=ENDS),
     ] = "free"
+
+    @property
+    def damper(self) -> str:
+        """What damps waves, in words ("": nothing)."""
+        return ""
 
     @abstractmethod
     def dampings(self, beam: HermiteBeam, impact: Impact) -> Dampings:
@@ -64,6 +72,10 @@ class GridViscosity(FarField):
 
     viscosity: Annotated[float, Quantity("", "c at grid scale; 0: none", least=0.0)] = 0.3
 
+    @property
+    def damper(self) -> str:
+        return "grid viscosity" if self.viscosity else ""
+
     def dampings(self, beam: HermiteBeam, impact: Impact) -> Dampings:
         return (("viscous", beam.stiffness(weight=self.viscosity * beam.lengths**2 / impact.wave_constant)),)
 
@@ -72,8 +84,14 @@ class GridViscosity(FarField):
 class Sponge(GridViscosity):
     """Bending viscosity that rises towards the ends."""
 
+    absorbs: ClassVar[bool] = True
+
     strength: Annotated[float, Quantity("", "b", least=0.0)] = 0.03
     width: Annotated[float, Quantity("", "width over the modelled half length", least=0.0, most=1.0)] = 0.5
+
+    @property
+    def damper(self) -> str:
+        return "a sponge"
 
     def dampings(self, beam: HermiteBeam, impact: Impact) -> Dampings:
         middles, half_length = 0.5 * (beam.nodes[:-1] + beam.nodes[1:]), float(beam.nodes[-1])

@@ -18,7 +18,7 @@ from bent_beam.meshes import MESHES, UniformMesh
 from bent_beam.method import Save, made_of, separation_times
 from hermite_fe import resolution, whole_beam
 from hermite_fe.contacts import CONTACTS, NodeContact
-from hermite_fe.far_fields import FAR_FIELDS, GridViscosity, Sponge
+from hermite_fe.far_fields import FAR_FIELDS, GridViscosity
 from hermite_fe.integrators import INTEGRATORS, MoreauJean, SignoriniPosition
 from hermite_fe.masses import MASSES
 from hermite_fe.model import BeamModel
@@ -173,10 +173,10 @@ class HermiteFE(Composition):
         progress: Callable[[float], None] | None = None,
     ) -> ImpactHistory:
         """Follow ``impact`` until the beam has left for good (:func:`bent_beam.method.simulate_to_separation`)."""
-        if isinstance(self.far_field, Sponge):
+        if self.far_field is not None and self.far_field.absorbs:
             raise InputError(
-                "far_field.kind: a sponge absorbs waves that the ends send back, and these belong to a whole impact: "
-                f"take viscosity (got strength {self.far_field.strength!r})"
+                f"far_field.kind: {self.far_field.damper} absorbs waves that the ends send back, and these belong to a "
+                f"whole impact: take viscosity (got {self.far_field!r})"
             )
         times, separation = separation_times(impact, longest, save), Separation(impact)
 

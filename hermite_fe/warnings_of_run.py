@@ -9,7 +9,7 @@ import numpy as np
 from bent_beam.history import REFLECTED, ImpactHistory
 from bent_beam.impact import WAVES_FELT, Impact
 from hermite_fe.compiled import Array
-from hermite_fe.far_fields import FarField, Sponge
+from hermite_fe.far_fields import FarField
 from hermite_fe.integrators import Integrator
 from hermite_fe.model import BeamModel
 from hermite_fe.resolution import front
@@ -76,13 +76,11 @@ def end_warnings(impact: Impact, end_time: float, nodes: Array, far_field: FarFi
     reached, thickness = np.array([front(impact, t) for t in emitted]).T
     arrival = emitted + np.maximum(2.0 * half - reached, 0.0) * thickness / (2.0 * impact.wave_constant)
     returning = arrival[(last < thickness) & (arrival < end_time) & (emitted > 0.01 * arrival)]
-    absorber = "grid viscosity" if getattr(far_field, "viscosity", 0.0) else ""
-    absorber = "the sponge" if isinstance(far_field, Sponge) else absorber
     if returning.size:
         out.append(
             f"{REFLECTED} (x = {half:.3g} m) and be back at the contact from about "
             f"t = {float(returning.min()):.2g} s on: from then on it is the impact of this beam, which no theory of an "
-            f"endless one covers{ABSORBED.format(absorber) if absorber else ''}"
+            f"endless one covers{ABSORBED.format(far_field.damper) if far_field.damper else ''}"
         )
     far = nodes > 1.5 * place
     free = impact.free_motion(impact.relative_curvature)(nodes, end_time)

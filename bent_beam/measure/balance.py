@@ -11,7 +11,8 @@ the second for a bow free of stress with free ends, without N and without viscos
 impulses act. On a mesh that expands with an infinite beam ∫μ z_t dx = J, z = y₀ − y being the fast part: absorber and
 end together take none of it (2e-5 of J at κ/ν = 0.5).
 
-v is taken as piecewise cubic: ∫v = Σ [h/2 (v₁ + v₂) + h²/12 (v₁′ − v₂′)], slopes by differences.
+v is taken as piecewise cubic: ∫v = Σ [h/2 (v₁ + v₂) + h²/12 (v₁′ − v₂′)], slopes by differences; with shear the
+sections' own turning stands for them in the first equation, of which the elements make their cubics.
 """
 
 from __future__ import annotations
@@ -139,7 +140,9 @@ def _missing_momentum(history: ImpactHistory) -> Array | None:
     load = impact.load_within(0.5 * _length(history))
     if _ends_follow(history):
         load -= impact.bending_stiffness * float(motion(0.0, by_x=4)) * _length(history)
-    gained = impact.mass_per_length * _integrals(history, 0)
+    turning = history.array("angular_velocity") if "angular_velocity" in history else None
+    x, both = history.positions(0), 2.0 / history.sides
+    gained = impact.mass_per_length * both * _integral(x, history.array("velocity"), turning)
     return np.asarray(gained - gained[0] - load * history.time + history.array("total_impulse"))
 
 
@@ -163,7 +166,7 @@ def _second_moment(history: ImpactHistory, missing: Array | None) -> float | Non
     force -= 2.0 * impact.bending_stiffness * (turned + impact.damping * (turn - turn[0]))
     impulse = history.array("impulse") - (history.array("opposite_impulse") if "opposite_impulse" in history else 0.0)
     pushed = both * impulse @ history.contact_positions(0) ** 2
-    gained = impact.mass_per_length * _integrals(history, 2)
+    gained = impact.mass_per_length * both * _integral(x, x**2 * history.array("velocity"))
     if "angular_velocity" in history:
         gained += 2.0 * impact.rotary_inertia * both * _integral(x, x * history.array("angular_velocity"))
     # what is missing of the momentum may be missing anywhere, at the ends at the farthest
@@ -222,15 +225,11 @@ def _length(history: ImpactHistory) -> float:
     return 2.0 / history.sides * float(x[-1] - x[0])
 
 
-def _integrals(history: ImpactHistory, power: int) -> Array:
-    """∫xⁿ v dx at the saved instants, both sides."""
-    x = history.positions(0)
-    return 2.0 / history.sides * _integral(x, x**power * history.array("velocity"))
-
-
-def _integral(x: Array, v: Array) -> Array:
-    """∫v dx of piecewise cubics through node values, (…, nodes)."""
-    h, slope = np.diff(x), np.gradient(v, x, axis=-1, edge_order=2)
+def _integral(x: Array, v: Array, slope: Array | None = None) -> Array:
+    """∫v dx of piecewise cubics through node values, (…, nodes), and slopes (``None``: by differences)."""
+    h = np.diff(x)
+    if slope is None:
+        slope = np.gradient(v, x, axis=-1, edge_order=2)
     pieces = 0.5 * h * (v[..., 1:] + v[..., :-1]) + h**2 / 12.0 * (slope[..., :-1] - slope[..., 1:])
     return np.asarray(pieces.sum(axis=-1))
 

@@ -74,16 +74,17 @@ def _sharpness(history: ImpactHistory, when: float) -> float:
     """By how much the force of a step at ``when`` stands above the mean of the steps beside it, N. It is estimated from
     saved instants: with their distance this grows like its square where the force is smooth, and in proportion where
     it has a kink."""
-    spans = np.diff(history.time)
-    if spans.size < 5:
+    if history.time.size < 6:
         return 0.0
-    forces = np.abs(np.diff(history.array("total_impulse"))) / spans  # its sign says which of two walls pushes
-    k = min(max(int(np.searchsorted(history.time, when)) - 1, 2), forces.size - 3)
-    near, far = (float(forces[k] - 0.5 * (forces[k - i] + forces[k + i])) for i in (1, 2))
+    k = min(max(int(np.searchsorted(history.time, when)) - 1, 2), history.time.size - 4)
+    about = slice(k - 2, k + 4)
+    spans = np.diff(history.time[about])
+    forces = np.abs(np.diff(history.array("total_impulse", about))) / spans  # its sign says which of two walls pushes
+    near, far = (float(forces[2] - 0.5 * (forces[2 - i] + forces[2 + i])) for i in (1, 2))
     if near <= 0.0:
         return 0.0
     order = min(max(math.log2(max(far / near, 1.0)), 1.0), 2.0)
-    return near * min(float(history.time[-1]) / max(history.steps, 1) / float(spans[k]), 1.0) ** order
+    return near * min(float(history.time[-1]) / max(history.steps, 1) / float(spans[2]), 1.0) ** order
 
 
 def hold_of(history: ImpactHistory) -> dict[str, float | None] | None:

@@ -81,7 +81,6 @@ class WholeImpact:
     peak_force: float | None
     peak_force_time: float | None
     peak_force_place: float | None
-    peak_force_sharp: float
     push: float
     push_time: float
     push_rise: float
@@ -98,6 +97,7 @@ class WholeImpact:
     left: bool
     again: bool = False
     may_return: bool = False
+    peak_force_sharp: float = 0.0
 
 
 def pushes(time: Array, impulse: Array, shortest: float) -> list[tuple[int, int]]:
@@ -131,7 +131,7 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
     impulse = float(total[end]) / (mass * speed)
     until = min(float(time[contacts[-1][1]]) + LOWEST_PERIOD * unit, float(time[-1]))
     moment = speed * math.sqrt(impact.bending_stiffness * impact.mass_per_length)
-    peak, wall, left = peak_moment(history, until=until), wall_peaks(history, until=until), has_left(history)
+    peak, left = peak_moment(history, until=until), has_left(history)
     energy = history.array("kinetic_energy") + history.array("strain_energy")
     held = history.energy("contact_energy")  # by springs of the wall
     initial = float(energy[0])
@@ -164,10 +164,7 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
         peak_moment_time=peak.time / unit,
         moment_left_out=moment_left_out(history) / moment,
         midspan_moment=peak.midspan / moment,
-        peak_force=None if wall is None else 2.0 * wall.force * unit / (mass * speed),
-        peak_force_time=None if wall is None else wall.time / unit,
-        peak_force_place=None if wall is None or wall.place is None else wall.place / impact.half_length,
-        peak_force_sharp=0.0 if wall is None else 2.0 * wall.sharp * unit / (mass * speed),
+        **_largest_force(history, until),
         push=2.0 * (float(gained[k]) + rise) / (mass * speed),
         push_time=float(time[begin]) / unit,
         push_rise=2.0 * rise / (mass * speed),
@@ -194,6 +191,20 @@ def _returns(history: ImpactHistory, end: int) -> tuple[tuple[float, float], ...
     gap, since = history.array("gap", slice(end, stop)).min(axis=1), history.time[end:stop] - history.time[end]
     near = np.flatnonzero((gap[1:-1] < gap[:-2]) & (gap[1:-1] <= gap[2:])) + 1
     return tuple((float(history.time[end + k]) / unit, float(gap[k] / since[k]) / speed) for k in near)
+
+
+def _largest_force(history: ImpactHistory, until: float) -> dict[str, Any]:
+    """`WholeImpact.peak_force` until a time, s, and what belongs to it."""
+    impact, found = history.impact, wall_peaks(history, until=until)
+    if found is None:
+        return dict.fromkeys(("peak_force", "peak_force_time", "peak_force_place"))
+    unit = impact.mass_per_length * impact.half_length * impact.velocity / impact.slow_time_scale
+    return {
+        "peak_force": found.force / unit,
+        "peak_force_time": found.time / impact.slow_time_scale,
+        "peak_force_place": None if found.place is None else found.place / impact.half_length,
+        "peak_force_sharp": found.sharp / unit,
+    }
 
 
 def _rise_between(values: Array, k: int) -> float:

@@ -18,7 +18,7 @@ from typing import ClassVar, NamedTuple
 import numpy as np
 
 from hermite_fe.active_set import CYCLING, SOLVED, solve_free
-from hermite_fe.banded import PAD, multiply
+from hermite_fe.banded import PAD, copy, multiply
 from hermite_fe.compiled import Array, Places, compiled, compiled_within
 from hermite_fe.constraints import count_rounds
 from hermite_fe.elastic_wall import FORCE, FORCE_TIME, PENETRATION, PRESSURE, push
@@ -80,7 +80,8 @@ def take_steps(
     for k in range(first, last):
         h, anew = begin_step(problem, state, memory.vectors, times[k], times[k + 1], 0.5)
         if anew:
-            memory.base[:] = problem.solver.S
+            for m in range(memory.base.shape[0]):
+                copy(problem.solver.S[m], memory.base[m])
         status = solve_step(problem, state, memory, times[k], h)
         if status == SOLVED:
             status = finish_step(problem, state, memory.impulse, memory.vectors, h, 0.5)
