@@ -7,22 +7,7 @@ check, its key in ``[impact]`` and its line of the page of settings follow. With
 uniform load μ∂²y₀/∂t² + EI ∂⁴y₀/∂x⁴ + N K and of the end forces of y₀; every solver asks :class:`FreeMotion` for these.
 A load without a term is a force of its own, which a solver adds. Theory to first order knows the loads that have a
 ``group``. A solver names the loads and other features that it models in its ``MODELLED``, and refuses the rest; theory
-and what compares with it do so, too (:func:`unmodelled`).
-
-To add a load:
-
-1. ``scales.py``: its field, with ``instead=SIMULATED``, of which a refusal takes its advice. The place of a force is a
-   field of its own, a :class:`Place` with ``load``: its key in ``[impact]``, its checks, a node there and whether the
-   full beam is needed follow. A load without a term of y₀ has its share in ``load_within``, of which momentum, balances
-   and hits follow. Where it can pull or turn the beam off the wall, ``lifts`` says so.
-2. Each path that models it: its name, and that of its place, in ``MODELLED`` and, of a load without a term, its force:
-   ``nodal_loads`` in ``hermite_fe/model.py``; ``assemble`` in ``exudyn_models/assembly.py``, a force in its units being
-   N times ``end_time/impulse`` of its ``Scaling``. Exudyn asks y₀ how much of the beam to model and which nodes may
-   touch: tell such a load to ``chosen_half_length`` and ``reachable`` in ``exudyn_models/resolution.py``. A path that
-   models a part of the beam refuses a place beyond.
-3. A line in ``new_case.py``, a test (``tests/measure/test_balance.py`` has the balances, ``tests/twins.py`` runs in
-   other units, ``benchmarks/beams.py`` draws beams), rows in ``docs/guide/problems.md`` and ``docs/scope.md``, a line
-   in ``CHANGELOG.md``, and the stored numbers confirmed (``make stored``: some minutes).
+and what compares with it do so, too (:func:`unmodelled`). How to add one: docs/guide/add-load.md.
 
 A beam with held ends,
 
