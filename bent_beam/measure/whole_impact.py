@@ -119,8 +119,7 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
     Raises ``ValueError`` when the wall was never touched.
     """
     impact, time = history.impact, history.time
-    unit = impact.slow_time_scale
-    total = history.array("total_impulse")
+    total, unit = history.array("total_impulse"), impact.slow_time_scale
     contacts = pushes(time, total, shortest * unit)
     if not contacts:
         raise ValueError("the run ends before the wall was touched")
@@ -128,12 +127,10 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
     hit = _grouped([(i, k, "front") for i, k in contacts], impact, time)[0]
     _, end, _ = hit[-1]
     last = 0.5 * float(time[end - 1] + time[end])
-    impulse = float(total[end]) / (mass * speed)
     until = min(float(time[contacts[-1][1]]) + LOWEST_PERIOD * unit, float(time[-1]))
     moment = speed * math.sqrt(impact.bending_stiffness * impact.mass_per_length)
     peak, left = peak_moment(history, until=until), has_left(history)
     energy = history.array("kinetic_energy") + history.array("strain_energy")
-    held = history.energy("contact_energy")  # by springs of the wall
     initial = float(energy[0])
     work = initial + history.energy("work_of_loads")
     gained = np.interp(time + WINDOW * unit, time, total) - total
@@ -156,7 +153,7 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
     return WholeImpact(
         restitution=found["restitution"] if gone else None,
         **{name: found[name] for name in SHARES},
-        impulse=2.0 * impulse,
+        impulse=2.0 * float(total[end]) / (mass * speed),
         last_contact=last / unit,
         separations=len(hit) - (0 if len(contacts) > len(hit) or left else 1),
         peak_moment=peak.moment / moment,
@@ -177,7 +174,7 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
         contacts=tuple((float(time[i]) / unit, 0.5 * float(time[j - 1] + time[j]) / unit) for i, j, _ in hit),
         returns=_returns(history, end),
         energy_defect=abs(history.energy_budget()["defect"]) / initial,
-        energy_gain=float(np.max(np.diff(energy + held - work), initial=0.0)) / initial,
+        energy_gain=float(np.max(np.diff(energy + history.energy("contact_energy") - work), initial=0.0)) / initial,
         left=left,
         again=len(contacts) > len(hit),
         may_return=may_return(history),
