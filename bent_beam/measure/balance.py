@@ -11,8 +11,8 @@ the second for a bow free of stress with free ends, without N and without viscos
 impulses act. On a mesh that expands with an infinite beam ∫μ z_t dx = J, z = y₀ − y being the fast part: absorber and
 end together take none of it (2e-5 of J at κ/ν = 0.5).
 
-v is taken as piecewise cubic: ∫v = Σ [h/2 (v₁ + v₂) + h²/12 (v₁′ − v₂′)], slopes by differences; with shear the
-sections' own turning stands for them in the first equation, of which the elements make their cubics.
+v is taken as piecewise cubic: ∫v = Σ [h/2 (v₁ + v₂) + h²/12 (v₁′ − v₂′)], slopes by differences. Some elements make
+cubics of their sections' turning instead, or straight lines: the first equation takes what closes it best.
 """
 
 from __future__ import annotations
@@ -123,11 +123,15 @@ def _middle_slope(history: ImpactHistory) -> float | None:
     return float(slopes[:, 0].max()) / (float(slopes.max()) or 1.0)
 
 
+def _largest_late(residual: Array) -> float:
+    """In the second half of the run."""
+    return float(np.abs(residual[int(LAST * residual.size) :]).max())
+
+
 def _residual(residual: Array, impulse: Array) -> float | None:
-    """Largest in the second half of the run; ``None`` without an impulse."""
-    late = slice(int(LAST * residual.size), None)
+    """Largest in the second half of the run, over the largest impulse; ``None`` without one."""
     most = float(np.abs(impulse).max())
-    return float(np.abs(residual[late]).max()) / most if most > 0.0 else None
+    return _largest_late(residual) / most if most > 0.0 else None
 
 
 def _missing_momentum(history: ImpactHistory) -> Array | None:
@@ -140,10 +144,14 @@ def _missing_momentum(history: ImpactHistory) -> Array | None:
     load = impact.load_within(0.5 * _length(history))
     if _ends_follow(history):
         load -= impact.bending_stiffness * float(motion(0.0, by_x=4)) * _length(history)
-    turning = history.array("angular_velocity") if "angular_velocity" in history else None
-    x, both = history.positions(0), 2.0 / history.sides
-    gained = impact.mass_per_length * both * _integral(x, history.array("velocity"), turning)
-    return np.asarray(gained - gained[0] - load * history.time + history.array("total_impulse"))
+    x, velocity, given = history.positions(0), history.array("velocity"), load * history.time
+    slopes = [None, np.zeros_like(velocity)]
+    if "angular_velocity" in history:
+        slopes.append(history.array("angular_velocity"))
+    mass = impact.mass_per_length * 2.0 / history.sides
+    gained = (mass * _integral(x, velocity, slope) for slope in slopes)
+    missing = (now - now[0] - given + history.array("total_impulse") for now in gained)
+    return min(missing, key=_largest_late)
 
 
 def _second_moment(history: ImpactHistory, missing: Array | None) -> float | None:
