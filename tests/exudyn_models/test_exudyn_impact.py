@@ -21,7 +21,7 @@ from exudyn_models import ExudynModel
 from exudyn_models.contacts import Penalty, Rigid, SegmentFriction
 from exudyn_models.elements import ANCFCable, GeometricallyExact
 from exudyn_models.geometry import LinearLimit, TrueGeometry
-from exudyn_models.integrators import DOPRI5, RK44, GeneralizedAlpha, Newmark, VelocityVerlet
+from exudyn_models.integrators import GeneralizedAlpha, Newmark
 from exudyn_models.recording import Recorder
 from exudyn_models.segments import growing_segments
 from theory import contact_parameters
@@ -104,7 +104,7 @@ def test_nothing_is_held_once_waves_may_be_back():
         pytest.param({"element": GeometricallyExact()}, marks=verify),
         pytest.param({"contact": Rigid(), "integrator": Newmark(relative_step=5e-3)}, marks=verify),
         {"contact": Penalty(relative_stiffness=3.0, relative_damping=1.0, hold=4)},
-        {"contact": SegmentFriction(friction=0.3)},  # friction changes nothing in the linear limit
+        pytest.param({"contact": SegmentFriction(friction=0.3)}, marks=verify),
         pytest.param({"integrator": Newmark(relative_step=5e-3)}, marks=verify),
         pytest.param({"integrator": GeneralizedAlpha(spectral_radius=0.0)}, marks=verify),
         pytest.param({"geometry": LinearLimit(1e-2)}, marks=verify),
@@ -123,8 +123,13 @@ def test_swapped_part_keeps_the_answer(parts):
 def test_segment_contact_loses_what_its_forces_do(friction):
     """A step's forces are those of the states that it was solved with: gaps at its end would hide 2 % of the losses.
     Where it slides, waves along the beam bend a sloping cable, whose viscosity takes 5e-4 of the losses."""
-    budget = exudyn_models.simulate(HALF, mesh=coarse(), save=10, contact=SegmentFriction(friction)).energy_budget()
+    history = exudyn_models.simulate(
+        HALF, mesh=coarse(growth=1.04, elements=15), save=10, contact=SegmentFriction(friction)
+    )
+    budget = history.energy_budget()
     assert abs(budget["defect"]) < 1e-6 * sum(value for name, value in budget.items() if name.startswith("loss"))
+    exact = 4.0 * math.sqrt(0.2 / math.pi) * float(contact_parameters(0.5).r0)  # friction changes nothing
+    assert history.array("total_impulse")[-1] == pytest.approx(exact, rel=2e-3)
 
 
 @verify
@@ -142,20 +147,6 @@ def test_a_thin_front_is_met_within_its_error_bars_and_nothing_is_held(kappa_ove
     for number in (row.lambda0, row.r0):
         assert abs(number.relative()) < min(0.003, number.relative_bar())
     assert row.hold is None and row.lift < 0.02
-
-
-@pytest.mark.parametrize(
-    "integrator",
-    [VelocityVerlet(), pytest.param(RK44(), marks=verify), pytest.param(DOPRI5(), marks=verify)],
-    ids=lambda i: type(i).__name__,
-)
-def test_explicit_integrator_is_stable_at_its_own_step(integrator):
-    history = exudyn_models.simulate(HALF, mesh=coarse(growth=1.04, elements=8), integrator=integrator, save=100)
-    assert off(history) < 1e-2
-    budget = history.energy_budget()
-    lost = budget["loss_impact"] + budget["loss_viscous"]
-    # 0.9 % of it: the contact state is frozen for a step; 24 % when Exudyn repeats steps with a state of its own
-    assert abs(budget["defect"]) < 0.03 * lost
 
 
 @verify
@@ -194,12 +185,11 @@ def test_without_contact_y0_is_the_motion(psi, chi, tension, within, element):
     assert abs(budget["defect"]) < 1e-6 * budget["initial_energy"]
 
 
-@pytest.mark.parametrize("moments", [[[1.0, -5.0], [2.0, 3.0]], [[1.0, 2.0], [-5.0, 3.0]]], ids=["left", "right"])
-def test_the_largest_moment_of_a_node_is_the_larger_of_its_two_sides(moments: list[list[float]]) -> None:
+def test_the_largest_moment_of_a_node_is_the_larger_of_its_two_sides() -> None:
     recorder: Any = Recorder.__new__(Recorder)
     kept: list[float] = []
     shape = SimpleNamespace(s=np.array([0.0, 1.0, 2.0]), place=np.array([0.0, 7.0, 9.0]))
     recorder.beam = SimpleNamespace(shape=shape)
     recorder._keep_largest = lambda name, *columns, anew: kept.extend(column.item() for column in columns)
-    recorder._note_moments(np.array([moments]))
+    recorder._note_moments(np.array([[[1.0, -5.0], [2.0, 3.0]]]))
     assert kept == [5.0, 7.0, 1.0]  # the largest, its place, the one in the middle
