@@ -2,6 +2,7 @@
 
 import math
 import warnings
+from functools import partial
 
 import numpy as np
 import pytest
@@ -55,7 +56,6 @@ REFUSED = [
     (lambda: run(SHORT.replace(axial_force=1.0), contact=SegmentFriction()), "axial force does not act .*got .* 1.0"),
     (lambda: run(save=0), "save"),
     (lambda: run(mesh=NODES, end_time=5.0), r"mesh.places .* 4.0 .*got 2.0"),
-    (lambda: run(mesh=NODES, end_time=5.0, integrator=RK44()), r"mesh.places .* 4.0 .*got 2.0"),
     (lambda: run(mesh=UniformMesh(1e-5)), "200000 are the most"),
     (lambda: run(end_time=math.nan), "end_time"),
     (lambda: run(Impact.dimensionless(0.5, length=100.0), geometry=TrueGeometry()), "right angle"),
@@ -80,7 +80,6 @@ REFUSED = [
     (lambda: asked(HINGED.replace(wall_to=0.1), contact=Rigid()), "must be penalty"),
     (lambda: asked(HINGED, geometry=TrueGeometry()), "free ends only"),
     (lambda: asked(HINGED.replace(axial_force=1.0)), "axial_force is not modelled together with ends"),
-    (lambda: asked(HINGED.replace(opposite_wall=1.0)), "opposite_wall is not modelled together with ends"),
     (lambda: asked(WHOLE.replace(hysteretic_loss=0.1, loss_frequency=1.0)), "hysteretic_loss .*got 0.1.* Hermite"),
     (lambda: asked(SHEARED, element=ANCFCable()), "ancf_cable" + WAY),
     (lambda: asked(SHEARED, contact=SegmentFriction()), "cables" + WAY),
@@ -147,14 +146,9 @@ class Pressed:
     def __init__(self, flexibility, penetration):
         self.flexibility, self.penetration, self.systemData = flexibility, penetration, self
         self.data, self.hook = np.ones(penetration.size), lambda *_: None
-        self.GetDataCoordinates = lambda: self.data
+        self.GetDataCoordinates, self.SetDataCoordinates = lambda: self.data, partial(setattr, self, "data")
         self.GetODE2Coordinates, self.GetODE2Coordinates_t = lambda: self.forces, lambda: self.gaps
-
-    def SetPreNewtonResidualUserFunction(self, hook):
-        self.hook = hook
-
-    def SetDataCoordinates(self, data):
-        self.data = data
+        self.SetPreNewtonResidualUserFunction = partial(setattr, self, "hook")
 
     def solve(self):
         self.hook(self, 0.0, 0, 0)

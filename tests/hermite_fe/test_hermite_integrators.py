@@ -1,7 +1,7 @@
 """Every integrator, that of the guide too, on a bouncing ball, an oscillator against a stop, two masses."""
 
 import math
-from functools import partial
+from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
@@ -157,11 +157,10 @@ def test_a_scheme_that_gains_energy_without_bound_is_a_failure_not_an_answer() -
         held.chosen_for(bare.replace(acceleration=0.2), 0.1).simulate(bare, end_time=0.1, save=60)
 
 
-@pytest.mark.parametrize(("ratio", "step"), [(0.5, None), (0.1, 1e-3)])
-def test_springs_settle_in_every_step_or_the_run_fails_by_name_and_their_rounds_are_counted(ratio, step) -> None:
-    beam = Impact(length=2.0, bending_stiffness=1.0, mass_per_length=1.0, curvature=ratio, velocity=1.0, damping=1e-3)
-    made = partial(GeneralizedAlphaPenalty, time_step=step)
-    history = HermiteFE(mesh=UniformMesh(1 / 30), integrator=made()).simulate(beam, end_time=0.2)
+def test_springs_settle_in_every_step_or_the_run_fails_by_name_and_their_rounds_are_counted() -> None:
+    beam = Impact(length=2.0, bending_stiffness=1.0, mass_per_length=1.0, curvature=0.5, velocity=1.0, damping=1e-3)
+    method = HermiteFE(mesh=UniformMesh(1 / 30), integrator=GeneralizedAlphaPenalty())
+    history = method.simulate(beam, end_time=0.2)
     assert 1.0 < history.settings["mean_iterations"] < 1.5 and history.settings["most_iterations"] < 10
     with pytest.raises(SimulationError, match="active set of the contact does not settle"):
-        HermiteFE(mesh=UniformMesh(1 / 30), integrator=made(contact_rounds=1)).simulate(beam, end_time=0.2)
+        replace(method, integrator=GeneralizedAlphaPenalty(contact_rounds=1)).simulate(beam, end_time=0.2)
