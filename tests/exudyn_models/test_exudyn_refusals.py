@@ -80,6 +80,7 @@ REFUSED = [
     (lambda: asked(HINGED.replace(wall_to=0.1), contact=Rigid()), "must be penalty"),
     (lambda: asked(HINGED, geometry=TrueGeometry()), "free ends only"),
     (lambda: asked(HINGED.replace(axial_force=1.0)), "axial_force is not modelled together with ends"),
+    (lambda: asked(HINGED.replace(opposite_wall=1.0)), "opposite_wall is not modelled together with ends"),
     (lambda: asked(WHOLE.replace(hysteretic_loss=0.1, loss_frequency=1.0)), "hysteretic_loss .*got 0.1.* Hermite"),
     (lambda: asked(SHEARED, element=ANCFCable()), "ancf_cable" + WAY),
     (lambda: asked(SHEARED, contact=SegmentFriction()), "cables" + WAY),

@@ -50,6 +50,7 @@ REFUSED = [
     (lambda: simulate(SHORT, mesh=UniformMesh(1e-9)), r"^mesh\.element_length is too small"),
     (lambda: simulate(Impact.dimensionless(0.5, epsilon_psi=1.0, length=40.0)), "into the wall before the impact"),
     (lambda: integrate(ball(), np.zeros(2), np.zeros(1), MoreauJean(1e-3), 0.1), r"q must have shape \(1,\) .*\(2,\)"),
+    (lambda: integrate(ball(), np.zeros(1), np.zeros(0), MoreauJean(1e-3), 0.1), r"v must have shape"),
     # contacts
     (lambda: NodeContact(restitution=0.5, hold=4), "hold keeps rows closed"),
     (lambda: MeanContact(restitution=1.5), r"contact\.restitution must lie in \[0, 1\] \(got 1.5\)"),
