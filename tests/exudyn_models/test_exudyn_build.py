@@ -117,8 +117,10 @@ def test_plain_exudyn_gives_the_restitution_of_a_damped_beam(kappa_over_nu, expe
     assert read["impulse"][-1, 0] / 2.0 - 1.0 == pytest.approx(expected, abs=0.002)
 
 
+@pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize(("element", "integrator", "contact"), list(itertools.product(ELEMENTS, INTEGRATORS, CONTACTS)))
-def test_a_combination_of_parts_meets_the_theory_or_is_refused_with_its_reason(element, integrator, contact):
+def test_a_combination_of_parts_meets_the_theory_or_is_refused_with_its_reason(element, integrator, contact, capfd):
+    """Nothing is printed, and nothing deprecated used."""
     parts = {"element": ELEMENTS[element](), "integrator": INTEGRATORS[integrator](), "contact": CONTACTS[contact]()}
     reason = ExudynModel(**parts).refuses(SHORT)
     if reason is not None:
@@ -128,6 +130,7 @@ def test_a_combination_of_parts_meets_the_theory_or_is_refused_with_its_reason(e
                 kind(SHORT, **parts)
         return
     history = exudyn_models.simulate(SHORT, mesh=COARSE, save=5, **parts)
+    assert not any(capfd.readouterr())
     assert history.array("total_impulse")[-1] == pytest.approx(impulse_of_theory(0.5), rel=0.02)
     budget = history.energy_budget()
     # explicit: the contact state is frozen for a step; 24 % when Exudyn repeats steps with a state of its own

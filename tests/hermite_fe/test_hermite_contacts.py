@@ -174,17 +174,6 @@ def test_adhesion_lies_between_a_wall_that_only_pushes_and_one_that_holds(scheme
     assert pulled(scheme, AdhesiveContact(pull=1e9), 0.3).array("in_contact")[-1].any()
 
 
-@SCHEMES
-@pytest.mark.parametrize("strength", [1.0, 3.0])
-def test_a_weight_that_is_lifted_leaves_when_the_lift_exceeds_the_strength(scheme: Integrator, strength: float) -> None:
-    """The load −2 + 4t on a mass on the wall: it leaves at t = (2 + F)/4, and has been pulled by F²/8 until then."""
-    system = System([[1.0]], [[0.0]], ContactRows([[0]], [[1.0]], [0.0]), load=[[-2.0], [4.0]])
-    law = ContactLaw(strength=np.array([strength]))
-    found = integrate(system, np.zeros(1), np.zeros(1), scheme, 1.5, law=law, save=1500)
-    assert found.time[found.closed[:, 0]].max() == pytest.approx((2.0 + strength) / 4.0, abs=3e-3)
-    assert found.held_impulse[-1, 0] == pytest.approx(-(strength**2) / 8.0, abs=2e-3)
-
-
 def test_a_beam_leaves_a_wall_that_pulls_the_later_and_slower_the_harder_it_pulls() -> None:
     """And the whole impact knows: a pull is contact."""
     beam, found = Impact.whole_beam(0.5, relative_damping=3e-3), []

@@ -89,18 +89,23 @@ def test_an_oscillator_leaves_its_stop_with_the_restitution(make: Make, restitut
     assert run.sums["loss_impact"][-1] == pytest.approx(0.5 * 2.0 * 4.0 * (1.0 - restitution**2), abs=2e-2)
 
 
-@pytest.mark.parametrize("make", WITH_IMPACT_LAW.values(), ids=WITH_IMPACT_LAW)
-def test_a_weight_presses_until_it_is_lifted_and_only_what_is_held_then_pulls(make: Make) -> None:
-    """The load −g + 2gt presses until t = ½ and pulls from then on, held until 1; then nothing holds it."""
-    g = 2.0
-    system = System([[1.0]], [[0.0]], ContactRows([[0]], [[1.0]], [0.0]), load=[[-g], [2.0 * g]])
-    run = integrate(system, np.zeros(1), np.zeros(1), make(1e-3), 1.5, law=ContactLaw(hold_until=1.0))
-    pressed = run.time <= 0.5
+HELD = [(make, ContactLaw(hold_until=1.0), 2.0) for make in WITH_IMPACT_LAW.values()]
+HELD += [(make, ContactLaw(strength=np.array([most])), most)
+         for make in (SignoriniPosition, WITH_IMPACT_LAW["moreau_jean"]) for most in (1.0, 3.0)]  # fmt: skip
+
+
+@pytest.mark.parametrize(("make", "law", "most"), HELD)
+def test_a_weight_presses_until_it_is_lifted_and_only_what_is_held_then_pulls(make, law, most) -> None:
+    """The load −2 + 4t presses until t = ½ and then pulls: until ``most`` is reached, which is 2 at the hold's end."""
+    system = System([[1.0]], [[0.0]], ContactRows([[0]], [[1.0]], [0.0]), load=[[-2.0], [4.0]])
+    run = integrate(system, np.zeros(1), np.zeros(1), make(1e-3), 1.5, law=law, save=1500)
+    pressed, pulled = run.time <= 0.5, most**2 / 8.0
     assert np.abs(run.q[pressed]).max() < 1e-5 and np.abs(run.sums["complementarity_product"]).max() < 1e-12
-    assert run.impulse[pressed, 0].max() == pytest.approx(g * 0.25, rel=1e-2)
+    assert run.impulse[pressed, 0].max() == pytest.approx(0.5, rel=1e-2)
+    assert run.time[run.closed[:, 0]].max() == pytest.approx((2.0 + most) / 4.0, abs=3e-3)
     assert np.all(np.diff(run.held_impulse[:, 0]) <= 1e-12)
-    assert run.held_impulse[-1, 0] == pytest.approx(-g * 0.25, abs=0.02)
-    assert run.impulse[-1, 0] == pytest.approx(0.0, abs=0.02)
+    assert run.held_impulse[-1, 0] == pytest.approx(-pulled, abs=2e-3)
+    assert run.impulse[-1, 0] == pytest.approx(0.5 - pulled, abs=3e-3)
 
 
 @pytest.mark.parametrize("name", ["velocity", "position_velocity_acceleration", "penalty"])
