@@ -149,7 +149,6 @@ def test_contacts_between_nodes_are_booked_where_they_act(contact: Contact) -> N
 # --- a wall that pulls, a little --------------------------------------------------------------------------------------
 
 H, L = 1e-4, 0.02
-SCHEMES = pytest.mark.parametrize("scheme", [SignoriniPosition(H), MoreauJean(H, theta=0.5)], ids=str)
 
 
 def pulled(scheme: Integrator, contact: Contact, end: float = 0.004) -> ImpactHistory:
@@ -159,7 +158,7 @@ def pulled(scheme: Integrator, contact: Contact, end: float = 0.004) -> ImpactHi
     return simulate(Impact.whole_beam(0.3), end_time=end, mesh=mesh, integrator=scheme, contact=contact, save=every)
 
 
-@SCHEMES
+@pytest.mark.parametrize("scheme", [SignoriniPosition(H), MoreauJean(H, theta=0.5)], ids=str)
 def test_adhesion_lies_between_a_wall_that_only_pushes_and_one_that_holds(scheme: Integrator) -> None:
     """To the last digit it is the one without strength, the other beyond any pull; what gives way gains no energy."""
     for pull, other in ((0.0, NodeContact()), (1e9, NodeContact(hold_until=1.0))):
