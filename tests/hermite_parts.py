@@ -1,6 +1,7 @@
 """Integrators and small systems that tests of the Hermite path share."""
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -17,29 +18,18 @@ from hermite_fe.system import ContactRows, System
 
 GRAVITY, DROP = 9.81, 0.5  # thesis Fig. 3.6
 Make = Callable[..., Integrator]
-
-
-def at_level(level: str) -> Make:
-    return lambda h=None, **more: NonsmoothGeneralizedAlpha(h, levels=level, **more)
-
-
-WITH_IMPACT_LAW: dict[str, Make] = {"moreau_jean": lambda h=None, **more: MoreauJean(h, theta=0.5, **more)}
-WITH_IMPACT_LAW |= {level: at_level(level) for level in LEVELS}
+WITH_IMPACT_LAW: dict[str, Make] = {"moreau_jean": partial(MoreauJean, theta=0.5)}
+WITH_IMPACT_LAW |= {level: partial(NonsmoothGeneralizedAlpha, levels=level) for level in LEVELS}
 ALL: dict[str, Make] = WITH_IMPACT_LAW | {
     "moreau_jean_implicit": MoreauJean,
     "signorini_position": SignoriniPosition,
-    "penalty": lambda h=None, **more: GeneralizedAlphaPenalty(h, stiffness=1e5, damping=1e3, **more),
+    "penalty": partial(GeneralizedAlphaPenalty, stiffness=1e5, damping=1e3),
 }
 FIRST_ORDER = ("moreau_jean_implicit", "signorini_position")
 
 
 def ball() -> System:
     return System(mass=[[1.0]], stiffness=[[0.0]], load=[[-GRAVITY]], contacts=ContactRows([[0]], [[1.0]], [0.0]))
-
-
-def oscillator() -> System:
-    """ω = 2, a stop at its position of rest."""
-    return System(mass=[[2.0]], stiffness=[[8.0]], contacts=ContactRows([[0]], [[1.0]], [0.0]))
 
 
 def chain(gap: float, load: list[list[float]]) -> System:

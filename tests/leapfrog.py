@@ -14,7 +14,7 @@ import numpy as np
 SAFE = 0.8  # of the longest stable step
 
 
-@numba.njit
+@numba.njit(cache=True)
 def _steps(kappa, damping, s, g, points, steps, dt):
     dx, S, J = 1.0 / points, 1.0 / s**2, g * s**2
     w, v, M = np.zeros(points + 1), np.ones(points + 1), np.zeros(points + 1)

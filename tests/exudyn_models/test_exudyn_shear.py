@@ -25,7 +25,7 @@ SEED = 46
 
 
 def test_the_whole_impact_is_that_of_an_explicit_code_and_so_is_that_of_plain_solve_dynamic() -> None:
-    method = ExudynModel(mesh=UniformMesh(0.02))
+    method = ExudynModel(mesh=UniformMesh(0.03))
     restitution, impulse, moment = leapfrog.whole_impact(0.5, 3e-3, 0.05, G, 50, 1.1)
     history = method.simulate_to_separation(BEAM, save=500)
     found = whole_impact(history)
@@ -35,7 +35,7 @@ def test_the_whole_impact_is_that_of_an_explicit_code_and_so_is_that_of_plain_so
     balance = balance_of(history)
     assert balance.momentum < 2e-3 and balance.second_moment < 5e-3 and balance.warnings == []  # v by differences
     assert {"angle", "angular_velocity", "bending_moment"} <= set(history.dataset) and "slope" not in history
-    model = exudyn_models.build(BEAM, end_time=1.1, mesh=UniformMesh(0.02))
+    model = exudyn_models.build(BEAM, end_time=1.1, mesh=UniformMesh(0.03))
     model.mbs.SolveDynamic(model.settings)
     gathered = model.mbs.GetSensorStoredData(model.sensors["impulse"])[-1, 1]
     assert gathered / 2.0 - 1.0 == pytest.approx(restitution, abs=5e-3)
@@ -85,7 +85,7 @@ def test_recorded_moments_are_those_that_exudyn_puts_out(impact: Impact) -> None
 def test_loads_walls_that_give_way_and_stops_act_as_on_the_hermite_path(change: dict[str, float], name: str) -> None:
     impact = BEAM.replace(**change)
     hermite, exudyn = (
-        method(mesh=UniformMesh(0.01)).for_whole_beam(impact).simulate(impact, end_time=0.15, save=150)
+        method(mesh=UniformMesh(0.015)).for_whole_beam(impact).simulate(impact, end_time=0.15, save=150)
         for method in (HermiteFE, ExudynModel)
     )
     assert exudyn.array(name)[-1] == pytest.approx(hermite.array(name)[-1], rel=1e-2)
@@ -93,14 +93,16 @@ def test_loads_walls_that_give_way_and_stops_act_as_on_the_hermite_path(change: 
     assert abs(exudyn.energy_budget()["defect"]) < 1e-5
 
 
-def test_a_stopped_point_converges_to_the_transform() -> None:
+@pytest.mark.parametrize(("finest", "within"), [(0.06, 0.02), pytest.param(0.03, 0.01, marks=pytest.mark.verify)])
+def test_a_stopped_point_converges_to_the_transform(finest: float, within: float) -> None:
     """The penalty is as soft as an element in shear: what the impulse lacks falls with the element. Bars are twice what
-    half of the elements change. At 3 and 10 t_s."""
-    runs = [stopped_run("exudyn", element, 10.0) for element in (0.12, 0.06, 0.03)]
+    half of the elements change; the coarse runs' moments cross the exact one. At 3 and 10 t_s."""
+    runs = [stopped_run("exudyn", times * finest, 10.0) for times in (4, 2, 1)]
     impulse, moment = ([np.interp((3.0, 10.0), run.time, over_theory(run, name) - 1.0) for run in runs]
                        for name in ("impulse", "moment"))  # fmt: skip
-    for _, middle, fine in (impulse, moment):
-        assert (np.abs(fine) <= 2.0 * np.abs(fine - middle)).all() and (np.abs(fine) < 0.01).all()
+    assert np.abs([impulse[2], moment[2]]).max() < within
+    for _, middle, fine in (impulse, moment) if finest == 0.03 else (impulse,):
+        assert (np.abs(fine) <= 2.0 * np.abs(fine - middle)).all()
     assert (np.abs(impulse[2]) < 0.5 * np.abs(impulse[1]))[0] and (np.abs(impulse[1]) < 0.5 * np.abs(impulse[0]))[0]
 
 

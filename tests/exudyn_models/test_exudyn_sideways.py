@@ -11,7 +11,8 @@ import exudyn.itemInterface as items
 import numpy as np
 import pytest
 
-from exudyn_models.solvers import quiet
+from exudyn_models.integrators import GeneralizedAlpha
+from exudyn_models.solvers import NewtonSolver, quiet
 
 FRICTION, KAPPA, AMPLITUDE = 0.3, 0.5, 1e-3
 ELEMENTS, LENGTH, END = 60, 3.0, 0.1
@@ -59,14 +60,9 @@ def taken_and_sideways(steps):
         return True
 
     mbs.SetPreStepUserFunction(slide)
-    settings = exu.SimulationSettings()
-    settings.solution.file.write = False
-    time = settings.timeIntegration
-    time.verboseMode, time.endTime, time.numberOfSteps = 0, END, steps
-    time.newton.useModifiedNewton, time.newton.absoluteTolerance = True, 1e-11
-    time.generalizedAlpha.spectralRadius = 0.5
-    time.discontinuous.ignoreMaxIterations = True
-    settings.linearSolver.solverType = exu.LinearSolverType.EigenSparse
+    settings = NewtonSolver(contact_iterations=5).settings(AMPLITUDE, round_off=1e-11, along=0.0)
+    GeneralizedAlpha(spectral_radius=0.5).configure(settings)
+    settings.timeIntegration.endTime, settings.timeIntegration.numberOfSteps = END, steps
     with quiet():
         mbs.SolveDynamic(settings)
     q = mbs.systemData.GetODE2Coordinates()

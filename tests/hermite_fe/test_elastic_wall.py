@@ -27,9 +27,7 @@ def on_springs(kappa: float, ratio: float, **more: object) -> Impact:
     return Impact(1.0, 1.0, 120.0, kappa, 1.0, wall_stiffness=1.0, wall_damping=2.0 * ratio, **more)  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize(
-    ("ratio", "exact", "pressure"), [(0.0, 3.364318, 1.0), (0.25, 2.533837, 0.8107), (1.0, 2.450685, 2.0)]
-)
+@pytest.mark.parametrize(("ratio", "exact", "pressure"), [(0.0, 3.364318, 1.0), (0.25, 2.533837, 0.8107)])
 def test_the_largest_force_of_a_nearly_straight_beam_is_that_of_oscillators_side_by_side(ratio, exact, pressure):
     """κ/ν → 0: bending plays no part, and f√κ = 2√2 max ∫₀^√T R(T − s²) ds, R of an oscillator at V₀."""
     history = COARSE.simulate(on_springs(0.005, ratio), end_time=2.6, save=9)
@@ -66,13 +64,12 @@ def test_a_partly_covered_element_pushes_as_its_penetration_integrated_point_by_
 def test_energies_close_to_round_off_and_a_falsified_stiffness_shows(full: bool) -> None:
     impact = Impact(1.0, 1.0, 2.0, 0.5, 1.0, 0.5, damping=1e-3, wall_stiffness=5e3, wall_damping=20.0)
     model = beam_model(impact, UniformMesh(0.05).nodes(1.0), NodeContact(), GridViscosity(), full=full)
-    residuals = []
-    for share in (1.0, 0.99):
-        run = Stepper(model.system, model.displacement, model.velocity, Midpoint(2e-3, 0.0), 0.2)
-        start = run.energy()
-        run.advance_to(80)
-        s = run.sums()
-        residuals.append(abs(account(s | {"contact_energy": share * s["contact_energy"]}) - start) / start)
+    run = Stepper(model.system, model.displacement, model.velocity, Midpoint(2e-3, 0.0), 0.2)
+    start = run.energy()
+    run.advance_to(80)
+    s = run.sums()
+    falsified = [s | {"contact_energy": share * s["contact_energy"]} for share in (1.0, 0.99)]
+    residuals = [abs(account(sums) - start) / start for sums in falsified]
     assert s["loss_wall"] > 0.01 * start and s["contact_energy"] > 1e-3 * start
     assert residuals[0] < 1e-12 < 1e-6 < residuals[1]
 
@@ -92,7 +89,7 @@ def test_a_beam_that_comes_to_rest_on_its_wall_pushes_with_its_weight() -> None:
     """At rest nothing moves but the last digits: a step converges within these."""
     wall = {"wall_stiffness": 1e3, "wall_damping": 44.0}
     impact = Impact.whole_beam(0.5, relative_damping=0.05).replace(acceleration=5.0, **wall)
-    method = HermiteFE(mesh=UniformMesh(0.05), integrator=Midpoint(time_step=2e-4))
+    method = HermiteFE(mesh=UniformMesh(0.1), integrator=Midpoint(time_step=1e-3))
     rest = method.simulate(impact, end_time=8.0, save=100)
     assert np.abs(rest.array("velocity", -1)).max() < 1e-10
     force = np.diff(rest.array("total_impulse"))[-1] / np.diff(rest.time)[-1]
@@ -111,14 +108,6 @@ def test_a_hinged_beam_swung_on_an_elastic_stop_is_its_modes() -> None:
     found, exact = -history.array("gap")[:, -1], np.interp(history.time, time, tip)
     assert np.abs(found - exact).max() < 1e-3 * np.abs(exact).max()
     assert abs(history.energy_budget()["defect"]) < 1e-8 * history.energy_budget()["initial_energy"]
-
-
-def test_a_stop_keeps_half_its_stiffness_times_the_square_of_how_far_it_is_pressed_in_the_middle_too() -> None:
-    facing, q = np.array([0.1, 0.0, 0.3, 0.0]), np.array([0.5, 0.2, -0.1, 0.0])
-    for dof, pressed in ((0, 0.6), (2, 0.2)):
-        springs = Springs(5.0, 0.7, facing, np.array([0.8]), np.zeros(1), 0, 0, dof)  # no element before the wall
-        assert stored_energy(springs, q) == pytest.approx(0.5 * 5.0 * pressed**2)
-        assert stored_energy(springs, q - 1.0) == 0.0
 
 
 def test_a_straight_beam_flies_between_two_elastic_walls_like_a_point_mass() -> None:
@@ -157,11 +146,3 @@ def test_a_plate_is_pressed_hardest_at_its_edge_whatever_the_elements() -> None:
     for name in ("peak_penetration", "peak_pressure"):
         coarse, fine = (run.array(name)[-1] for run in runs)
         assert coarse == pytest.approx(fine, rel=2e-3) and fine > 0.0
-
-
-def test_a_stiff_wall_turns_nodes_where_the_beam_shears_and_nothing_is_amiss() -> None:
-    sheared = Impact.whole_beam(2.5, relative_damping=3e-3).replace(
-        shear_stiffness=4e4, rotary_inertia=5e-6, wall_stiffness=3e6
-    )
-    balance = balance_of(HermiteFE(mesh=UniformMesh(0.02)).for_whole_beam(sheared).simulate(sheared, end_time=0.3))
-    assert balance.second_moment < 2e-3 and balance.warnings == []

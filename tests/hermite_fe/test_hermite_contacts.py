@@ -30,7 +30,6 @@ INTEGRATORS = {name: make(STEP, growth=GROWTH) for name, make in ALL.items()}
 MESH = ScaleFreeMesh(0.01, 1.02)
 IMPACT = Impact.dimensionless(0.4, length=60.0)
 LOADED = IMPACT.replace(acceleration=0.2, fourth_derivative=1e-4)
-SHEARED = LOADED.replace(shear_stiffness=9.0, rotary_inertia=0.03)
 PAIRS = [(name, kind) for name in INTEGRATORS for kind in CONTACTS if name != "penalty" or kind == "node"]
 
 
@@ -56,11 +55,11 @@ def test_the_wall_pushes_where_the_beam_touches_and_takes_its_momentum(name: str
         assert history.array("smallest_gap").min() > -1e-12
 
 
-def is_half_of(full: ImpactHistory, half: ImpactHistory, within: float, *losses: str) -> None:
+def is_half_of(full: ImpactHistory, half: ImpactHistory, within: float, *more: str) -> None:
     nodes = half.dataset.sizes["x"]
     for name in {"gap", "bending_moment"} & set(half.dataset):
         assert np.abs(full.array(name)[:, nodes - 1 :] - half.array(name)).max() < (1e-9 if name == "gap" else 1e-7)
-    for name in ("total_impulse", "kinetic_energy", "strain_energy", "loss_impact", "loss_algorithmic", *losses):
+    for name in ("total_impulse", "kinetic_energy", "strain_energy", "loss_impact", "loss_algorithmic", *more):
         assert full.array(name) == pytest.approx(half.array(name), abs=within), name
 
 
@@ -74,20 +73,32 @@ class QuarterContact(Contact):
         return element_rows(beam, natural, weights, at=s, full=full)
 
 
+@dataclass(frozen=True)
+class AdhesiveContact(NodeContact):
+    """Contact at nodes; the wall pulls those that have touched, with so much at most."""
+
+    sticks: ClassVar[bool] = True
+    pull: Annotated[float, Quantity("N/m", "largest pull per length of beam", least=0.0)] = 0.0
+
+    def law(self, rows: ContactRows, hold_ends: float) -> ContactLaw:
+        return super().law(rows, hold_ends)._replace(strength=self.pull * rows.tributary)
+
+
 @pytest.mark.parametrize(
     ("name", "contact"),
     [
-        ("moreau_jean", NodeContact()),
         pytest.param("position_velocity_acceleration", MiddleContact(), marks=verify),
         pytest.param("signorini_position", CONTACTS["mean"](), marks=verify),
         ("signorini_position", QuarterContact()),
+        ("moreau_jean", AdhesiveContact(pull=300.0)),
     ],
     ids=str,
 )
 def test_half_and_full_beam_agree(name: str, contact: Contact) -> None:
-    beam = SHEARED if contact == NodeContact() else LOADED  # with shear contact is at nodes
-    half, full = (run(INTEGRATORS[name], contact, beam, full_beam=full) for full in (False, True))
-    is_half_of(full, half, 1e-8, "loss_viscous")
+    """The row in the middle of a half beam stands for half a node. With shear: in ``test_shear.py``."""
+    half, full = (run(INTEGRATORS[name], contact, LOADED, full_beam=full) for full in (False, True))
+    is_half_of(full, half, 1e-8, "loss_viscous", "held_impulse")
+    assert (half.array("held_impulse")[-1] < 0.0) == contact.sticks
     assert np.abs(full.array("gap") - full.array("gap")[:, ::-1]).max() < 1e-9
     assert np.allclose(full.contact_positions(0), -full.contact_positions(0)[::-1])
     assert (half.dataset.attrs["symmetry"], full.dataset.attrs["symmetry"]) == ("half", "full")
@@ -138,18 +149,6 @@ def test_contacts_between_nodes_are_booked_where_they_act(contact: Contact) -> N
 # --- a wall that pulls, a little --------------------------------------------------------------------------------------
 
 H, L = 1e-4, 0.02
-SCHEMES = pytest.mark.parametrize("scheme", [SignoriniPosition(H), MoreauJean(H, theta=0.5)], ids=str)
-
-
-@dataclass(frozen=True)
-class AdhesiveContact(NodeContact):
-    """Contact at nodes; the wall pulls those that have touched, with so much at most."""
-
-    sticks: ClassVar[bool] = True
-    pull: Annotated[float, Quantity("N/m", "largest pull per length of beam", least=0.0)] = 0.0
-
-    def law(self, rows: ContactRows, hold_ends: float) -> ContactLaw:
-        return super().law(rows, hold_ends)._replace(strength=self.pull * rows.tributary)
 
 
 def pulled(scheme: Integrator, contact: Contact, end: float = 0.004) -> ImpactHistory:
@@ -159,7 +158,7 @@ def pulled(scheme: Integrator, contact: Contact, end: float = 0.004) -> ImpactHi
     return simulate(Impact.whole_beam(0.3), end_time=end, mesh=mesh, integrator=scheme, contact=contact, save=every)
 
 
-@SCHEMES
+@pytest.mark.parametrize("scheme", [SignoriniPosition(H), MoreauJean(H, theta=0.5)], ids=str)
 def test_adhesion_lies_between_a_wall_that_only_pushes_and_one_that_holds(scheme: Integrator) -> None:
     """To the last digit it is the one without strength, the other beyond any pull; what gives way gains no energy."""
     for pull, other in ((0.0, NodeContact()), (1e9, NodeContact(hold_until=1.0))):
@@ -174,57 +173,19 @@ def test_adhesion_lies_between_a_wall_that_only_pushes_and_one_that_holds(scheme
     assert pulled(scheme, AdhesiveContact(pull=1e9), 0.3).array("in_contact")[-1].any()
 
 
-def test_the_wall_pulls_a_half_beam_as_it_pulls_the_whole() -> None:
-    """The row in the middle of a half beam stands for half a node."""
-    beam, parts = Impact.whole_beam(2.0), {"mesh": UniformMesh(L), "integrator": MoreauJean(H, theta=0.5)}
-    half, full = (
-        simulate(beam, end_time=0.3, contact=AdhesiveContact(pull=300.0), full_beam=full, **parts)
-        for full in (False, True)
-    )
-    assert half.array("held_impulse")[-1] < -0.01
-    for name in ("total_impulse", "held_impulse", "strain_energy"):
-        assert half.array(name) == pytest.approx(full.array(name), rel=1e-9, abs=1e-9)
-
-
-@pytest.mark.parametrize(
-    ("law", "sticks", "named"),
-    [
-        (None, True, "Odd.law must return a ContactLaw"),
-        (ContactLaw(strength=np.ones(3)), True, r"Odd.law must give one strength, or one a row, \(51,\)"),
-        (ContactLaw(strength=1.0), False, "Odd.law has a strength: set `sticks = True`"),
-        (ContactLaw(strength=1.0, hold=2), True, "neither rebounds nor is held"),
-    ],
-)
-def test_a_law_that_is_none_is_refused_by_name(law: Any, sticks: bool, named: str) -> None:
-    odd = type("Odd", (NodeContact,), {"law": lambda *_: law, "sticks": sticks})()
-    with pytest.raises(ValueError, match=named):
-        pulled(MoreauJean(H, theta=0.5), odd)
-
-
-@SCHEMES
-@pytest.mark.parametrize("strength", [0.0, 1.0, 3.0])
-def test_a_weight_that_is_lifted_leaves_when_the_lift_exceeds_the_strength(scheme: Integrator, strength: float) -> None:
-    """The load −2 + 4t on a mass on the wall: it leaves at t = (2 + F)/4, and has been pulled by F²/8 until then."""
-    system = System([[1.0]], [[0.0]], ContactRows([[0]], [[1.0]], [0.0]), load=[[-2.0], [4.0]])
-    law = ContactLaw(strength=np.array([strength]))
-    found = integrate(system, np.zeros(1), np.zeros(1), scheme, 1.5, law=law, save=1500)
-    assert found.time[found.closed[:, 0]].max() == pytest.approx((2.0 + strength) / 4.0, abs=3e-3)
-    assert found.held_impulse[-1, 0] == pytest.approx(-(strength**2) / 8.0, abs=2e-3)
-
-
 def test_a_beam_leaves_a_wall_that_pulls_the_later_and_slower_the_harder_it_pulls() -> None:
     """And the whole impact knows: a pull is contact."""
     beam, found = Impact.whole_beam(0.5, relative_damping=3e-3), []
-    for pull in (0.0, 100.0, 200.0):
-        method = HermiteFE(mesh=UniformMesh(1.0 / 60.0), contact=AdhesiveContact(pull=pull)).for_whole_beam(beam)
+    for pull in (0.0, 100.0):
+        method = HermiteFE(mesh=UniformMesh(1.0 / 30.0), contact=AdhesiveContact(pull=pull)).for_whole_beam(beam)
         run = simulate_to_separation(method, beam)
         last = int(np.flatnonzero(run.array("in_contact").any(axis=1)).max())
         found.append(whole_impact(run))
         mean = np.trapezoid(run.array("velocity", last + 1), run.positions(0))
         assert found[-1].restitution == pytest.approx(-mean, abs=2e-3)
         assert found[-1].last_contact == pytest.approx(run.time[last], abs=2e-3)
-    assert found[0].restitution > found[1].restitution > 2.0 * found[2].restitution > 0.0
-    assert found[0].last_contact < found[1].last_contact < found[2].last_contact
+    assert found[0].restitution > 2.0 * found[1].restitution > 0.0
+    assert found[0].last_contact < found[1].last_contact
 
 
 # --- contact points without mass: nothing impacts, nothing is lost, and what no impact takes throws the zone off ------

@@ -1,14 +1,14 @@
 """Every integrator, that of the guide too, on a bouncing ball, an oscillator against a stop, two masses."""
 
 import math
-from functools import partial
+from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 import pytest
 from fences import snippet
-from hermite_parts import ALL, DROP, FIRST_ORDER, GRAVITY, WITH_IMPACT_LAW, Make, ball, chain, oscillator
+from hermite_parts import ALL, DROP, FIRST_ORDER, GRAVITY, WITH_IMPACT_LAW, Make, ball, chain
 
 from bent_beam import Impact, SimulationError
 from bent_beam.meshes import ScaleFreeMesh, UniformMesh
@@ -77,37 +77,43 @@ def test_lasting_contact_is_second_order_with_reactions_in_the_smooth_motion() -
         assert np.all(np.log2(coarse / fine) > 1.7)
 
 
-@pytest.mark.parametrize("restitution", [0.0, 0.5, 1.0])
+@pytest.mark.parametrize("restitution", [0.0, 0.5])
 @with_impact_law
 def test_an_oscillator_leaves_its_stop_with_the_restitution(make: Make, restitution: float) -> None:
     """Every half period an impact at v = 2A, then amplitude e·A."""
-    run = integrate(oscillator(), np.array([1.0]), np.zeros(1), make(1e-3), 2.0, law=ContactLaw(restitution))
+    oscillator = System(mass=[[2.0]], stiffness=[[8.0]], contacts=ContactRows([[0]], [[1.0]], [0.0]))  # ω = 2
+    run = integrate(oscillator, np.array([1.0]), np.zeros(1), make(1e-3), 2.0, law=ContactLaw(restitution))
     after = run.time > math.pi / 4 + 0.01
     assert run.q[after, 0].max() == pytest.approx(restitution, abs=5e-3)
     assert run.impulse[-1, 0] == pytest.approx(2.0 * (1.0 + restitution) * 2.0, rel=5e-3)
     assert run.sums["loss_impact"][-1] == pytest.approx(0.5 * 2.0 * 4.0 * (1.0 - restitution**2), abs=2e-2)
 
 
-@pytest.mark.parametrize("make", WITH_IMPACT_LAW.values(), ids=WITH_IMPACT_LAW)
-def test_a_weight_presses_until_it_is_lifted_and_only_what_is_held_then_pulls(make: Make) -> None:
-    """The load −g + 2gt presses until t = ½ and pulls from then on, held until 1; then nothing holds it."""
-    g = 2.0
-    system = System([[1.0]], [[0.0]], ContactRows([[0]], [[1.0]], [0.0]), load=[[-g], [2.0 * g]])
-    run = integrate(system, np.zeros(1), np.zeros(1), make(1e-3), 1.5, law=ContactLaw(hold_until=1.0))
-    pressed = run.time <= 0.5
+HELD = [(make, ContactLaw(hold_until=1.0), 2.0) for make in WITH_IMPACT_LAW.values()]
+HELD += [(make, ContactLaw(strength=np.array([most])), most)
+         for make in (SignoriniPosition, WITH_IMPACT_LAW["moreau_jean"]) for most in (1.0, 3.0)]  # fmt: skip
+
+
+@pytest.mark.parametrize(("make", "law", "most"), HELD)
+def test_a_weight_presses_until_it_is_lifted_and_only_what_is_held_then_pulls(make, law, most) -> None:
+    """The load −2 + 4t presses until t = ½ and then pulls: until ``most`` is reached, which is 2 at the hold's end."""
+    system = System([[1.0]], [[0.0]], ContactRows([[0]], [[1.0]], [0.0]), load=[[-2.0], [4.0]])
+    run = integrate(system, np.zeros(1), np.zeros(1), make(1e-3), 1.5, law=law, save=1500)
+    pressed, pulled = run.time <= 0.5, most**2 / 8.0
     assert np.abs(run.q[pressed]).max() < 1e-5 and np.abs(run.sums["complementarity_product"]).max() < 1e-12
-    assert run.impulse[pressed, 0].max() == pytest.approx(g * 0.25, rel=1e-2)
+    assert run.impulse[pressed, 0].max() == pytest.approx(0.5, rel=1e-2)
+    assert run.time[run.closed[:, 0]].max() == pytest.approx((2.0 + most) / 4.0, abs=3e-3)
     assert np.all(np.diff(run.held_impulse[:, 0]) <= 1e-12)
-    assert run.held_impulse[-1, 0] == pytest.approx(-g * 0.25, abs=0.02)
-    assert run.impulse[-1, 0] == pytest.approx(0.0, abs=0.02)
+    assert run.held_impulse[-1, 0] == pytest.approx(-pulled, abs=2e-3)
+    assert run.impulse[-1, 0] == pytest.approx(0.5 - pulled, abs=3e-3)
 
 
-@pytest.mark.parametrize("radius", [0.6, 0.9])
 @pytest.mark.parametrize("name", ["velocity", "position_velocity_acceleration", "penalty"])
-def test_what_steps_cannot_resolve_shrinks_by_the_spectral_radius(name: str, radius: float) -> None:
+def test_what_steps_cannot_resolve_shrinks_by_the_spectral_radius(name: str) -> None:
     """Chung & Hulbert 1993: at ωh → ∞ all roots of the amplification are ρ∞, a double one among them (n ρⁿ)."""
     system = System(mass=[[1.0]], stiffness=[[1e12]], contacts=ContactRows([[0]], [[1.0]], [1e9]))
-    steps, integrator = int(-40.0 / np.log(radius)), ALL[name](1.0, spectral_radius=radius)
+    radius, steps = 0.6, 80
+    integrator = ALL[name](1.0, spectral_radius=radius)
     run = integrate(system, np.ones(1), np.zeros(1), integrator, float(steps), save=list(np.arange(steps + 1.0)))
     size, half = np.abs(run.q[:, 0]), steps // 2
     early, late = size[half - 4 : half].max(), size[2 * half - 4 : 2 * half].max()
@@ -150,18 +156,17 @@ def test_steps_grow_at_most_as_asked_and_refined_ones_are_as_many_times_shorter(
 
 
 def test_a_scheme_that_gains_energy_without_bound_is_a_failure_not_an_answer() -> None:
-    """Generalised-α with sixteen held constraints blows up on a graded mesh at κ/ν = ½ (measured)."""
+    """Generalised-α with sixty-four held constraints blows up on a graded mesh at κ/ν = ½ (measured)."""
     bare = Impact.dimensionless(0.5)
-    held = HermiteFE(integrator=NonsmoothGeneralizedAlpha(), contact=NodeContact(hold=16), refine=0.7)
+    held = HermiteFE(integrator=NonsmoothGeneralizedAlpha(), contact=NodeContact(hold=64), refine=0.4)
     with pytest.raises(SimulationError, match="unstable"):
         held.chosen_for(bare.replace(acceleration=0.2), 0.1).simulate(bare, end_time=0.1, save=60)
 
 
-@pytest.mark.parametrize(("ratio", "step"), [(0.5, None), (0.1, 1e-3)])
-def test_springs_settle_in_every_step_or_the_run_fails_by_name_and_their_rounds_are_counted(ratio, step) -> None:
-    beam = Impact(length=2.0, bending_stiffness=1.0, mass_per_length=1.0, curvature=ratio, velocity=1.0, damping=1e-3)
-    made = partial(GeneralizedAlphaPenalty, time_step=step)
-    history = HermiteFE(mesh=UniformMesh(1 / 30), integrator=made()).simulate(beam, end_time=0.2)
+def test_springs_settle_in_every_step_or_the_run_fails_by_name_and_their_rounds_are_counted() -> None:
+    beam = Impact(length=2.0, bending_stiffness=1.0, mass_per_length=1.0, curvature=0.5, velocity=1.0, damping=1e-3)
+    method = HermiteFE(mesh=UniformMesh(1 / 30), integrator=GeneralizedAlphaPenalty())
+    history = method.simulate(beam, end_time=0.2)
     assert 1.0 < history.settings["mean_iterations"] < 1.5 and history.settings["most_iterations"] < 10
     with pytest.raises(SimulationError, match="active set of the contact does not settle"):
-        HermiteFE(mesh=UniformMesh(1 / 30), integrator=made(contact_rounds=1)).simulate(beam, end_time=0.2)
+        replace(method, integrator=GeneralizedAlphaPenalty(contact_rounds=1)).simulate(beam, end_time=0.2)

@@ -37,6 +37,11 @@ def massless(impact=SHORT, element=0.04, contact=AlternateContact(), viscosity=0
     method.simulate(impact, end_time=end_time)
 
 
+def odd(law, sticks=True):
+    """A run whose contact has a law of somebody's own, that is none."""
+    simulate(SHORT, integrator=MoreauJean(1e-3), contact=type("Odd", (NodeContact,), {"law": law, "sticks": sticks})())
+
+
 REFUSED = [
     # arguments
     (lambda: simulate(SHORT, end_time=0.0), r"end_time must be positive \(got 0.0\)"),
@@ -54,7 +59,6 @@ REFUSED = [
     (lambda: simulate(SHORT, integrator=ALL["penalty"](1e-3), contact=NodeContact(hold=4)), r"\.hold has no effect"),
     (lambda: simulate(SHORT, integrator=ALL["penalty"](1e-3), contact=MiddleContact()), r"contact\.kind"),
     (lambda: simulate(SHORT, integrator=ALL["penalty"](1e-3), contact=NodeContact(0.5)), r"restitution must be 0 \("),
-    (lambda: simulate(SHORT, integrator=SignoriniPosition(1e-3), contact=NodeContact(0.5)), "restitution must be 0"),
     # integrators
     (lambda: NonsmoothGeneralizedAlpha(spectral_radius=-0.1), r"spectral_radius must lie in \[0, 1\] \(got -0.1\)"),
     (lambda: NonsmoothGeneralizedAlpha(levels="none"), "levels must be one of"),
@@ -90,6 +94,10 @@ REFUSED = [
     (lambda: at_rest(MoreauJean(1e-4), 1.0, law=ContactLaw(strength=-np.ones(1))), r"0 or more, N \(got -1.0\)"),
     (lambda: at_rest(MoreauJean(1e-4), 1.0, law=ContactLaw(0.5, strength=np.ones(1))), r"must be 0 \(got 0.5\)"),
     (lambda: at_rest(SignoriniPosition(1e-4, theta=0.9), 1.0, law=ContactLaw(strength=np.ones(1))), "theta = 1"),
+    (lambda: odd(lambda *_: None), "Odd.law must return a ContactLaw"),
+    (lambda: odd(lambda *_: ContactLaw(strength=np.ones(3))), "Odd.law must give one strength, or one a row"),
+    (lambda: odd(lambda *_: ContactLaw(strength=1.0), sticks=False), "Odd.law has a strength: set `sticks"),
+    (lambda: odd(lambda *_: ContactLaw(strength=1.0, hold=2)), "neither rebounds nor is held"),
 ]  # fmt: skip
 
 

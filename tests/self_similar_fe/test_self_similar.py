@@ -11,7 +11,6 @@ from bent_beam.measure.moments import first_front, moments
 from self_similar_fe import ExpandingMesh, SelfSimilarFE
 from self_similar_fe.run import simulate_expanding
 from self_similar_fe.similarity import similarity
-from theory import contact_parameters
 
 EXACT = {  # κ/ν: λ₀, r₀
     1 / 1600: (56.5684099145, 35.4490354773),
@@ -42,12 +41,6 @@ def test_leading_order_to_a_few_hundred_thousandths(ratio, half):
     assert np.any(history.array("in_contact")[:, 1:]) == (lambda0 > 0.0)
 
 
-def test_the_slope_is_that_of_the_line_whose_distance_from_the_wall_is_the_gap(half):
-    for history in (half, simulate_expanding(Impact.dimensionless(0.5, epsilon_psi=0.1), QUICK, end_time=0.1)):
-        bow = -np.gradient(history.array("gap", -1), history.positions(-1), edge_order=2)
-        assert history.array("slope", -1) == pytest.approx(bow, abs=1e-3) and abs(bow).max() > 3.0
-
-
 def test_a_nearly_flat_beam():
     """κ/ν = 1/1600, where no fixed mesh resolves the front: the held start alone is right to 0.01 %."""
     state = similarity(1 / 1600, ExpandingMesh(front_resolution=0.05))
@@ -72,31 +65,29 @@ def test_energy_of_the_fast_part_is_the_work_of_the_wall(half):
     tense = Impact.dimensionless(0.5, epsilon_alpha=-0.02, epsilon_axial=0.04)
     budget = simulate_expanding(tense, QUICK, end_time=1.0).energy_budget()
     assert abs(budget["defect"]) < 3e-5 * budget["work_of_loads"]
-    heavy = Impact(2.0, 8.0, 600.0, 0.5 / 3.0, 1.0 / 6.0)  # κ/ν = 0.5
+    heavy = Impact(2.0, 8.0, 600.0, 0.5 / 3.0, 1.0 / 6.0).replace(fourth_derivative=1e-3 / 6.0)  # κ/ν = 0.5, ψ > 0
     history = simulate_expanding(heavy, QUICK, end_time=0.1 * heavy.time_scale)
     assert history.time[-1] == pytest.approx(0.1 * heavy.time_scale)
-    slope = history.array("slope", -1)
-    assert np.gradient(-history.array("gap", -1), history.positions(-1)) == pytest.approx(
-        slope, abs=0.02 * np.ptp(slope)
-    )
     budget = history.energy_budget()
-    assert abs(budget["defect"]) < 1e-5 * budget["work_of_loads"]
+    assert abs(budget["defect"]) < 3e-5 * budget["work_of_loads"]
+    slope = history.array("slope", -1)
+    bow = -np.gradient(history.array("gap", -1), history.positions(-1), edge_order=2)
+    assert bow == pytest.approx(slope, abs=3e-4 * np.ptp(slope))
 
 
-def test_impulse_and_energies_grow_like_the_root_of_the_time_and_far_ahead_the_beam_flies_on(half):
+def test_impulse_energies_and_front_grow_like_the_root_of_the_time_and_far_ahead_the_beam_flies_on(half):
     for name in ("total_impulse", "kinetic_energy", "strain_energy", "work_of_loads", "loss_absorbed"):
         shares = half.array(name) / np.sqrt(half.time)
         assert shares == pytest.approx(shares[-1], rel=1e-5), name
     for k in (0, 20, -1):
         x, gap = half.positions(k)[-1], half.array("gap", k)[-1]
         assert gap == pytest.approx(0.25 * x**2 - half.time[k], rel=1e-6)
-
-
-def test_the_moment_of_the_impulse_is_half_of_it_times_the_front_from_the_start_on(half):
-    """2ρ√τ and ρλ₀τ of one side."""
-    impulse = half.array("total_impulse")[1:] / 2.0
-    front = contact_parameters(0.5).lambda0 * np.sqrt(half.time[1:])
-    assert half.array("impulse_moment")[1:] == pytest.approx(0.5 * impulse * front, rel=2e-3)
+    # the front at an instant, bare: from two centroids of what points gathered that move with it
+    read, bent = first_front(half, 0.08)
+    assert read == pytest.approx(EXACT[0.5][0] * 0.08**0.5, rel=2e-3) and bent < 2e-3 * read
+    # 2ρ√τ and ρλ₀τ of one side
+    front = EXACT[0.5][0] * np.sqrt(half.time[1:])
+    assert half.array("impulse_moment")[1:] == pytest.approx(half.array("total_impulse")[1:] / 4.0 * front, rel=2e-3)
 
 
 def test_a_curved_wall_takes_its_curvature_from_the_beams_and_the_method_runs_its_mesh(half):
@@ -119,7 +110,7 @@ def test_the_middle_lifts_when_the_load_pulls_and_stays_unpulled_when_it_pushes(
 
 def test_the_wall_pulls_in_no_step_where_contacts_wander_and_widened_tolerances_are_warned_of(monkeypatch):
     """α = −1 pulls the beam off: the contact is one or two nodes, which exchanging all wrong ones never settles."""
-    pulled, mesh = Impact.dimensionless(0.1, epsilon_alpha=-1.0), ExpandingMesh(step_ratio=0.01)
+    pulled, mesh = Impact.dimensionless(0.1, epsilon_alpha=-1.0), ExpandingMesh(step_ratio=0.02)
     history = SelfSimilarFE(mesh=mesh).simulate(pulled, end_time=0.05)
     assert history.settings["largest_pull"] < 1e-4 and history.settings["widened"] <= 10.0
     assert not history.warnings
@@ -148,7 +139,7 @@ def test_what_breaks_self_similarity_or_is_impossible_is_refused_by_name(made, s
 
 def test_waves_reach_as_far_as_the_root_of_time_and_beyond_a_short_beam_it_is_said():
     short = Impact.dimensionless(0.5, length=4.0)
-    said = [simulate_expanding(short, QUICK, end_time=end).warnings[0] for end in (0.1, 0.9)]
+    said = [simulate_expanding(short, ExpandingMesh(decades=1.0), end_time=end).warnings[0] for end in (0.1, 0.9)]
     early, late = (float(re.findall(r"reach ([\d.]+) m, beyond the half length 2 m", one)[0]) for one in said)
     assert late == pytest.approx(3.0 * early, rel=1e-2)
 
@@ -165,9 +156,3 @@ def test_elements_are_fine_at_the_front_and_nowhere_longer_than_a_share_of_the_z
     sizes, k = np.diff(nodes), int(np.searchsorted(nodes, front))
     assert nodes[0] == 0.0 and nodes[k] == pytest.approx(front) and absorbs == pytest.approx(front + 8.0)
     assert sizes[:k].max() <= 1.001 * front / 30 and sizes[k] == pytest.approx(sizes.min(), rel=0.1)
-
-
-def test_the_front_that_is_read_at_an_instant_is_the_theory_s(half):
-    """Bare, a front ~ √t: from two centroids of what points gathered that move with it."""
-    front, bent = first_front(half, 0.08)
-    assert front == pytest.approx(EXACT[0.5][0] * 0.08**0.5, rel=2e-3) and bent < 2e-3 * front
