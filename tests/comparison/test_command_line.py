@@ -44,6 +44,8 @@ def test_both_paths_say_what_theory_says_and_their_stored_runs_are_drawn_and_com
     found = answered("compare", *files)
     assert found["same_impact"] and found["paths"] == ["hermite", "exudyn"]
     assert max(found["largest_difference"][name] for name in ("total_impulse", "gap")) < 0.01  # two codes, one impact
+    assert all(one != other for one, other in found["settings"].values())
+    assert any(None in pair for pair in found["settings"].values())  # one path alone has it
     said = comparison_text(found | {"end": found["end"] | {"time": [0.002, 0.004]}}, "a", "b")
     assert "end of the run" in said and "common time, 2 ms." in said  # at which all others are told
 

@@ -3,6 +3,7 @@
 import json
 import re
 from dataclasses import dataclass, replace
+from functools import cache
 from itertools import product
 from types import SimpleNamespace
 
@@ -14,7 +15,7 @@ from bent_beam import ImpactHistory, InputError, load_case
 from bent_beam.measure.numbers import MISSING
 from comparison.figures.matching import leading_figure, write_match
 from comparison.matching import PERTURBATION, answer, match
-from comparison.methods import methods_from_file, methods_of
+from comparison.methods import methods_from_file
 from comparison.rows import (
     THESIS_KAPPAS,
     MatchQuestion,
@@ -40,7 +41,6 @@ def off(number, least=0.0):
     ("method", "kappa", "of_lambda0", "of_r0"),
     [
         (HermiteFE(), 0.25, 1e-3, 5e-4),
-        pytest.param(SelfSimilarFE(), 0.05, 2e-4, 1e-4, marks=pytest.mark.verify),
         (SelfSimilarFE(), 0.5, 2e-4, 1e-4),
         (ExudynModel(refine=0.5), 0.5, 1e-3, 5e-4),
     ],
@@ -49,7 +49,7 @@ def test_every_path_matches_the_leading_order(method, kappa, of_lambda0, of_r0):
     row = answer(MatchQuestion(method, kappa, error_bars="drift"), KEEP)
     assert off(row.lambda0) < of_lambda0 and off(row.r0) < of_r0
     if isinstance(method, SelfSimilarFE):
-        assert row.lift < (1e-5 if kappa >= 0.25 else 5e-4) and row.warnings == []
+        assert row.lift < 1e-5 and row.warnings == []
 
 
 @pytest.mark.parametrize(
@@ -120,7 +120,7 @@ def test_the_size_of_the_loads_is_within_the_error_bars(monkeypatch, kappa, firs
 
 
 def test_a_sweep_resumes_and_does_not_depend_on_jobs(tmp_path):
-    asked = questions(methods_of(["self_similar"]), [0.5, 0.25, 2.0])
+    asked = questions([SelfSimilarFE(refine=0.5)], [0.5, 0.25, 2.0])
     first = match(asked[:2], store=RunStore(tmp_path))
     kept = {f.name: f.read_bytes() for f in tmp_path.iterdir()}
     both = match(asked, store=RunStore(tmp_path), jobs=2)
@@ -167,6 +167,9 @@ def test_what_fails_outside_its_run_costs_its_row_too():
         assert row.reason.startswith(error.__name__) and "nobody looked" in row.reason and not row.refused
 
 
+without_lift = cache(SelfSimilarFE.simulate)
+
+
 @dataclass(frozen=True)
 class Lifted(SelfSimilarFE):
     """It throws its zone off the wall by so much of V₀t; that share of the push is doubtful, of r₁ twice as much."""
@@ -174,7 +177,7 @@ class Lifted(SelfSimilarFE):
     lift: float = 0.0
 
     def simulate(self, impact, **asked):
-        data = super().simulate(impact, **asked).dataset
+        data = without_lift(replace(self, lift=0.0), impact, **asked).dataset
         return ImpactHistory.of(data.assign(gap=data["gap"] + self.lift * impact.velocity * data["time"]))
 
 
@@ -186,9 +189,14 @@ def test_bars_wider_than_2_percent_of_leading_and_10_of_first_order_are_a_warnin
     assert ("λ₀" in said) == (row.r0.bar > 0.02 * row.r0.value) and ("r₁" in said) == (row.r1.bar > 0.1 * row.r1.value)
 
 
-def test_a_wall_that_gives_way_has_its_largest_force_in_the_row():
-    """f(½, ½) = 3.155, whatever the stiffness."""
-    row = answer(MatchQuestion(HermiteFE(refine=0.5), 0.5, error_bars="drift", wall=(1e5, 0.5)), RunStore(None))
+def test_a_wall_that_gives_way_has_its_largest_force_in_the_row_and_says_from_when_on_it_is_as_a_rigid_one():
+    """f(½, ½) = 3.155, whatever the stiffness; a zone with c = √(kμ) comes within 2 % of a rigid wall's after
+    200 √(μ/k)."""
+    soft, stiff = (MatchQuestion(HermiteFE(refine=0.5), 0.5, error_bars="drift", wall=(k, 0.5)) for k in (1e5, 5e6))
+    row = answer(soft, KEEP)
+    (said,) = (text for text in row.warnings if "rigid wall" in text)
+    assert said.endswith("from 0.632 t* on (the run ends at 0.1 t*)")
+    assert not any("rigid wall" in text for text in answer(stiff, KEEP).warnings)
     assert row.peak_force.known == pytest.approx(3.155, rel=2e-3)
     head, _, line, *_ = match_table([row]).splitlines()
     head, line = (re.split(r"\s{2,}", text.strip()) for text in (head, line))
@@ -198,23 +206,10 @@ def test_a_wall_that_gives_way_has_its_largest_force_in_the_row():
     assert row.peak_force.theory == pytest.approx(3.155, rel=1e-3)
 
 
-@pytest.mark.parametrize(("stiffness", "said"), [(1e5, "from 0.632 t* on (the run ends at 0.1 t*)"), (1e7, "")])
-def test_a_run_too_short_for_the_rigid_walls_theory_says_from_when_on_that_holds(stiffness, said):
-    """A zone with c = √(kμ) comes within 2 % of a rigid wall's after 200 √(μ/k)."""
-    row = answer(MatchQuestion(HermiteFE(refine=0.5), 0.5, error_bars="drift", wall=(stiffness, 0.5)), KEEP)
-    assert [text.partition("of it ")[2] for text in row.warnings if "rigid wall" in text] == [said] * bool(said)
-
-
-LISTS = CASES / "methods"
-
-
-@pytest.mark.parametrize("file", sorted(LISTS.glob("*.toml")), ids=lambda file: file.stem)
-def test_every_shipped_list_can_be_asked_for(file):
-    assert methods_from_file(file)
-
-
-def test_the_lists_of_all_pairs_hold_every_integrator_with_every_contact():
-    files = LISTS / "hermite.toml", LISTS / "exudyn.toml"
+def test_every_shipped_list_can_be_asked_for_and_those_of_all_pairs_hold_every_integrator_with_every_contact():
+    lists = CASES / "methods"
+    assert all(methods_from_file(file) for file in lists.glob("*.toml"))
+    files = lists / "hermite.toml", lists / "exudyn.toml"
     methods = methods_from_file(*files)
     for kind, file in zip((HermiteFE, ExudynModel), files):
         pairs = [(type(m.integrator), type(m.contact)) for m in methods if isinstance(m, kind)]
@@ -228,14 +223,12 @@ def test_the_lists_of_all_pairs_hold_every_integrator_with_every_contact():
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("", "at least one"),
         ("method = 3", "at least one"),
         ("[[metod]]\npath = 1", "did you mean method"),
         ("[[method]]\nlabel = 1\npath = 'hermite'", "label must be"),
         ("[[method]]\nlabel = 'x'", "path is required"),
         ("[[method]]\npath = 'hermit'", "did you mean hermite"),
         ("[[method]]\npath = 'hermite'\nintegator = {}", "did you mean integrator"),
-        ("[[method]]\npath = 'hermite'\n[[method]]\npath = 'hermite'", "given twice"),
     ],
 )
 def test_a_bad_methods_file_is_refused_in_one_line(tmp_path, text, message):
