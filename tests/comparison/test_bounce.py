@@ -236,17 +236,12 @@ def test_a_straight_bar_on_a_soft_wall_leaves_as_a_mass_on_a_spring_does(velocit
     bar = Impact(1.0, 1.0, 2.0, 0.0, velocity, damping=1e-2, acceleration=weight)
     found = bounce(bar.replace(wall_stiffness=omega**2, wall_damping=2.0 * zeta * omega), COARSE)
 
-    def push(x: float, v: float) -> float:
-        return omega**2 * x + 2.0 * zeta * omega * v
+    def push(_: float, state: Any) -> float:
+        return omega**2 * state[0] + 2.0 * zeta * omega * state[1]
 
-    def lifts(_: float, state: Any) -> float:
-        return push(*state) if state[1] < 0.0 else 1.0
-
-    lifts.terminal = True  # type: ignore[attr-defined]
-    end = solve_ivp(
-        lambda _, s: (s[1], weight - push(*s)), (0.0, 9.0), (0.0, velocity), events=lifts, rtol=1e-10, atol=1e-12
-    )
-    x, v = end.y[:, -1]
+    push.terminal, push.direction = True, -1.0  # type: ignore[attr-defined]
+    start, accuracy = (0.0, velocity), {"rtol": 1e-10, "atol": 1e-12}
+    x, v = solve_ivp(lambda t, s: (s[1], weight - push(t, s)), (0.0, 9.0), start, events=push, **accuracy).y[:, -1]
     left = 0.5 * v**2 / (0.5 * velocity**2 + weight * x)
     assert any("bring the beam back" in warning for warning in found.warnings)
     wanted = {"translation": left, "vibration": 0.0, "dissipated": 1.0 - left, "restitution": -v / velocity}
