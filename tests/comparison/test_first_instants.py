@@ -109,16 +109,9 @@ def test_a_beam_that_touches_in_a_point_bends_by_the_step_in_velocity(kappa_over
         assert peak_moment(history).moment == pytest.approx(1.0, rel=2e-3)
 
 
-@pytest.mark.parametrize(
-    ("end", "beam"),
-    [
-        (0.004, {"curvature": 0.29, "damping": 3e-3, "acceleration": 4.9}),
-        pytest.param(0.003, {"curvature": 0.32, "damping": 8e-4}, marks=verify),
-    ],
-)
-def test_both_paths_agree_on_moment_and_front_of_a_zone_that_damping_lifts(end, beam):
+def test_both_paths_agree_on_moment_and_front_of_a_zone_that_damping_lifts():
     """Damping keeps the zone off the wall from the first instant on: all of the reaction is at the front."""
-    hermite, exudyn = simulated(end, **beam)
+    hermite, exudyn = simulated(0.004, curvature=0.29, damping=3e-3, acceleration=4.9)
     assert peak_moment(exudyn).moment == pytest.approx(peak_moment(hermite).moment, rel=0.01)
     fronts = [first_front(history, history.time[-1])[0] for history in (hermite, exudyn)]
     assert fronts[1] == pytest.approx(fronts[0], rel=0.01)
