@@ -80,6 +80,6 @@ def test_a_picture_has_the_same_bytes_when_it_is_drawn_again(tmp_path, monkeypat
         monkeypatch.setenv("SOURCE_DATE_EPOCH", time)  # Matplotlib's clock
         with style.figure() as (fig, axis):
             axis.plot([0.0, 1.0], [0.0, 1.0], **style.HERMITE)
-            style.save(fig, folder, "line", ["png", "svg", "pdf"])
+        style.save(fig, folder, "line", ["png", "svg", "pdf"])
     files = sorted((tmp_path / "a").iterdir())
     assert len(files) == 3 and all(file.read_bytes() == (tmp_path / "b" / file.name).read_bytes() for file in files)
