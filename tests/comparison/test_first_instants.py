@@ -156,10 +156,9 @@ def test_a_run_too_short_for_its_damping_stops() -> None:
         ExudynModel().simulate(Impact(**BEAM, curvature=0.3, damping=1e-3), end_time=1e-7, save=10)
 
 
-@pytest.mark.parametrize("save", [[0.0002, 0.002], 100])
-def test_few_saved_instants_move_no_front(save: list[float] | int) -> None:
+def test_few_saved_instants_move_no_front() -> None:
     impact = Impact(**BEAM, curvature=0.3)
-    history = HermiteFE().simulate(impact, end_time=0.002, save=save)
+    history = HermiteFE().simulate(impact, end_time=0.002, save=[0.0002, 0.002])
     theory = predict(impact, [0.002]).times[0].half_contact_length
     assert first_front(history, history.time[-1])[0] == pytest.approx(theory, rel=2e-3)
     assert first_front(history, 0.0) == (0.0, 0.0)

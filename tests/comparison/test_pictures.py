@@ -13,17 +13,6 @@ from comparison import bounce, predict
 from comparison.figures import style
 from comparison.figures.history import _window
 
-WALLS = {
-    "rigid": "",
-    "elastic": "[wall]\nstiffness = 1e5\n",
-    "two": "[wall]\nopposite = 0.01\n[run]\nend_time = 0.02\n",
-}
-
-
-@pytest.fixture(params=WALLS)
-def case(request, tmp_path):
-    return load_case(rod(tmp_path, WALLS[request.param], element=0.1))
-
 
 def inside(axis):
     """Whether every curve of an axis is within its limits, what is drawn in shares of it left out."""
@@ -34,7 +23,9 @@ def inside(axis):
     return low <= values.min() and values.max() <= high
 
 
-def test_nothing_is_cut_off_and_the_largest_values_are_marked_with_their_numbers(case):
+@pytest.mark.parametrize("tables", ["", "[wall]\nstiffness = 1e5", "[wall]\nopposite = 0.01\n[run]\nend_time = 0.02"])
+def test_nothing_is_cut_off_and_the_largest_values_are_marked_with_their_numbers(tables, tmp_path):
+    case = load_case(rod(tmp_path, tables, element=0.1))
     two = case.impact.opposite_wall is not None
     found = predict(case, case.end_time) if two else bounce(case)
     fig = found.plot()

@@ -63,19 +63,13 @@ def test_theory_and_simulation_agree_before_reflections(kappa: float, damping: f
     assert told == sorted(told) and told[-1] == pytest.approx(1.0)
 
 
-def test_they_agree_as_long_as_the_theory_is_within_2_percent_of_the_stopped_beam() -> None:
+def test_they_agree_as_long_as_the_theory_is_within_2_percent_of_the_stopped_beam_whatever_else_is_asked() -> None:
     impact, times = Impact.whole_beam(2.0, relative_damping=1e-3), np.geomspace(6.9e-4, 0.069, CHECKED)
     theory = [row.impulse for row in predict(impact, times).times]
     near = np.abs(theory / StoppedBeam(1e-3).impulse(times) - 1.0) < 0.02
     assert not near.all()
-    agreement = predict_case(replace(case_of(impact), tables=HALF), [0.069], whole=False).agreement
-    assert agreement == pytest.approx({"from": times[0], "until": times[near][-1]})
-
-
-def test_a_time_beyond_those_that_are_simulated_leaves_the_others_compared() -> None:
-    impact = Impact.whole_beam(0.5, relative_damping=1e-2)
-    found = predict_case(case_of(impact), [2e-3, 1.1 * LATEST], whole=False)
-    assert found.agreement is not None and found.agreement["until"] == pytest.approx(2e-3)
+    found = predict_case(replace(case_of(impact), tables=HALF), [0.069, 1.1 * LATEST], whole=False)
+    assert found.agreement == pytest.approx({"from": times[0], "until": times[near][-1]})
     assert "are not simulated here" in " ".join(found.warnings)
 
 
