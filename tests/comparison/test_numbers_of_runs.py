@@ -1,6 +1,7 @@
 """From readings to numbers: what companions change, what no companion shows, and what is said of a run's energies."""
 
 import dataclasses
+from typing import ClassVar
 
 import numpy as np
 import pytest
@@ -53,17 +54,14 @@ def test_companions_that_agree_better_than_whole_beams_can_leave_a_ten_thousandt
 
 
 def test_curves_that_cross_at_the_time_asked_do_not_agree() -> None:
+    """Nor do forces before a wall that gives way: their means over halves of the window, 0.2 long, differ by ±0.04/0.1,
+    over all of it not at all."""
     crossing = TIME | {"impulse_around": [0.92, 1.0, 1.08]}
     assert instant_numbers(runs(TIME, TIME))["impulse"].bar == 0.0
     assert instant_numbers(runs(TIME, crossing))["impulse"].bar == pytest.approx(FACTOR * 0.02)
     above = TIME | {"impulse": 1.02, "impulse_around": [0.92, 1.02, 1.12]}
     assert instant_numbers(runs(TIME, above))["impulse"].bar == pytest.approx(FACTOR * 0.02)  # it counts once
-
-
-def test_forces_that_cross_at_the_time_asked_do_not_agree_before_a_wall_that_gives_way() -> None:
-    """Mean forces over halves of the window, 0.2 long, differ by ±0.04/0.1, over all of it not at all."""
-    crossing = TIME | {"impulse_around": [0.9, 1.04, 1.1]}
-    rigid = runs(TIME, crossing, until=1.0)
+    rigid = runs(TIME, TIME | {"impulse_around": [0.9, 1.04, 1.1]}, until=1.0)
     soft = dataclasses.replace(rigid.question, impact=rigid.question.impact.replace(wall_stiffness=1e4))
     assert instant_numbers(rigid)["reaction"].bar == 0.0
     found = instant_numbers(dataclasses.replace(rigid, question=soft))["reaction"]
@@ -86,18 +84,19 @@ def test_what_a_run_and_its_companion_share_stays_in_the_bar() -> None:
     assert instant_numbers(runs(TIME, TIME, TIME, damping=0.0))["peak_moment"].bar == pytest.approx(1e-2)
 
 
-@pytest.mark.parametrize(
-    ("other", "shift"),
-    [((0.3, 0.5), 0.0), ((0.35, 0.45), 0.05), ((0.8, None), 0.2)],
-    ids=["same", "sooner", "together"],
-)
+def last_contact(one, other, **change) -> Number:
+    question = Question(problem(2.0, 1e-3).replace(**change), COARSE)
+    number = whole_numbers(dataclasses.replace(runs(one, other), question=question))["last_contact"]
+    assert isinstance(number, Number)
+    return number
+
+
+@pytest.mark.parametrize(("other", "shift"), [((0.3, 0.5), 0.0), ((0.35, 0.45), 0.05), ((0.8, None), 0.2)])
 def test_the_bar_of_the_last_contact_holds_the_shift_of_its_beginning(other, shift) -> None:
     """Contact from 0.5 to 0.8 T*, after one that ended 0.2 T* before. The companion's begins 0.05 T* sooner, or goes on
     from that one: the two are 0.2 T* apart, and no more is uncertain."""
-    one, another = (whole_reading(pushed_until(end, again=again)) for end, again in ((0.3, 0.5), other))
-    found = whole_numbers(dataclasses.replace(runs(one, another), question=Question(problem(2.0, 1e-3), COARSE)))
-    number = found["last_contact"]
-    assert isinstance(number, Number) and number.value == pytest.approx(0.8, abs=0.03)
+    number = last_contact(*(whole_reading(pushed_until(end, again=again)) for end, again in ((0.3, 0.5), other)))
+    assert number.value == pytest.approx(0.8, abs=0.03)
     assert number.parts["companion 0"] == pytest.approx(0.0, abs=1e-9)
     assert number.parts["contacts"] == pytest.approx(FACTOR * shift, abs=0.05)  # saved every 0.05 T*
 
@@ -107,21 +106,17 @@ def test_a_beam_that_leaves_slowly_may_touch_again_where_twice_the_bar_of_its_ve
     for change, later in ((0.01, 0.0), (0.03, 0.2), (0.04, 0.7)):
         one = whole_reading(pushed_until(0.3, again=0.5)) | {"returns": ((1.0, 0.05), (1.5, 0.08))}
         other = one | {"restitution": one["restitution"] + change}
-        found = whole_numbers(dataclasses.replace(runs(one, other), question=Question(problem(2.0, 1e-3), COARSE)))
-        number = found["last_contact"]
-        assert isinstance(number, Number) and number.parts["returns"] == pytest.approx(later, abs=0.03)
-    held = Question(problem(2.0, 1e-3).replace(left_end="hinged"), COARSE)  # what its other points do is not told
-    found = whole_numbers(dataclasses.replace(runs(one, other), question=held))
-    assert isinstance(found["last_contact"], Number) and found["last_contact"].parts["returns"] == 0.0
+        assert last_contact(one, other).parts["returns"] == pytest.approx(later, abs=0.03)
+    held = last_contact(one, other, left_end="hinged")
+    assert held.parts["returns"] == 0.0  # what its other points do is not told
 
 
 def test_bars_over_a_tenth_of_a_number_are_wide_and_a_small_restitution_counts_as_more() -> None:
     assert not wide_bars({"restitution": Number(0.1, 0.02), "peak_moment": Number(1.0, 0.05)})
     assert not wide_bars({"impulse": Band(1.0, 1.0, 24), "peak_force": Number(), "half_contact_length": Number(1.0)})
     assert not wide_bars({"half_contact_length": Number(0.0, 0.01)})  # one point, within an element
-    (said,) = wide_bars(
-        {"restitution": Number(0.1, 0.04), "impulse": Number(-1.0, 0.2), "peak_moment": Number(1.0, 0.0)}
-    )
+    wide = {"restitution": Number(0.1, 0.04), "impulse": Number(-1.0, 0.2)}
+    (said,) = wide_bars(wide | {"peak_moment": Number(1.0, 0.0)})
     assert "restitution" in said and "impulse" in said and "moment" not in said
 
 
@@ -138,45 +133,35 @@ def test_what_is_out_of_balance_is_among_the_warnings_of_runs() -> None:
     assert any("the wall pulls" in line for line in runs({"energy": ENERGY, "balance": balance}).warnings)
 
 
+@dataclasses.dataclass
 class Falling:
-    """A beam that is pushed from 0 to 0.5 T* and, by its weight, from 5 T* on again."""
+    """A beam that is pushed from 0 to 0.5 T* and, by its weight, from 5 T* on: once more, or for good."""
 
-    path = "falling"
+    rests: bool = False
+    longest: float = 0.0
+    path: ClassVar[str] = "falling"
 
     def for_whole_beam(self, impact):
         return self
 
     def simulate(self, impact, *, end_time, save):
-        return pushed_until(0.5, again=5.0, last=end_time)
+        self.longest = max(self.longest, end_time)
+        run = pushed_until(0.5, again=None if self.rests else 5.0, last=end_time)
+        if not self.rests:
+            return run
+        impulse = run.array("impulse") + 0.1 * np.maximum(0.0, run.time - 5.0)[:, None]
+        gathered = {"impulse": impulse, "total_impulse": 2.0 * impulse.sum(axis=1)}
+        return history_of(run.time, run.positions(0), impact=run.impact, **gathered)
 
 
-def test_hits_are_followed_until_so_many_are_over_or_the_beam_does_not_come_back() -> None:
-    falling = problem(2.0, 1e-3).replace(acceleration=0.5)
-    first = pushed_until(0.5)
+def test_hits_are_followed_until_so_many_are_over_or_the_beam_does_not_come_back_or_comes_to_rest() -> None:
+    flying, first, resting = problem(2.0, 1e-3), pushed_until(0.5), Falling(rests=True)
+    falling = flying.replace(acceleration=0.5)
     found = follow_hits(falling, Falling(), 2, first=first)  # type: ignore[arg-type]
     assert [hit.begin for hit in found] == pytest.approx([0.0, 5.0], abs=0.05)
-    assert len(follow_hits(problem(2.0, 1e-3), Falling(), 2, first=first)) == 1  # type: ignore[arg-type]
-
-
-class Resting(Falling):
-    """It lies on the wall from 5 T* on."""
-
-    longest = 0.0
-
-    def simulate(self, impact, *, end_time, save):
-        run = pushed_until(0.5, last=end_time)
-        weight = np.maximum(0.0, run.time - 5.0)
-        impulse = run.array("impulse") + 0.1 * np.outer(weight, np.ones(run.positions(0).size))
-        Resting.longest = max(Resting.longest, end_time)
-        return history_of(
-            run.time, run.positions(0), impact=run.impact, impulse=impulse, total_impulse=2.0 * impulse.sum(axis=1)
-        )
-
-
-def test_a_hit_that_does_not_end_is_not_followed_for_ever() -> None:
-    falling = problem(2.0, 1e-3).replace(acceleration=0.5)
-    found = follow_hits(falling, Resting(), 4, first=pushed_until(0.5))  # type: ignore[arg-type]
-    assert [hit.begin for hit in found] == [0.0] and Resting.longest < 50.0
+    assert len(follow_hits(flying, Falling(), 2, first=first)) == 1  # type: ignore[arg-type]
+    found = follow_hits(falling, resting, 4, first=first)  # type: ignore[arg-type]
+    assert [hit.begin for hit in found] == [0.0] and resting.longest < 50.0
 
 
 def test_few_saved_instants_hold_the_time_that_is_asked_for() -> None:

@@ -27,6 +27,7 @@ from theory import predict
 from theory.stopped_beam import StoppedBeam
 
 PIPE = CASES / "drill_pipe.toml"
+HALF = {"hermite": {"refine": 0.5}}
 
 
 def agrees(row: dict[str, Any], name: str) -> bool:
@@ -46,7 +47,8 @@ def agrees(row: dict[str, Any], name: str) -> bool:
 def test_theory_and_simulation_agree_before_reflections(kappa: float, damping: float, loads: dict[str, float]) -> None:
     impact = Impact.whole_beam(kappa, relative_damping=damping).replace(**loads)
     told: list[float] = []
-    found = predict_case(case_of(impact), [1e-5, 2e-3, 4e-3], whole=False, progress=told.append).to_dict()
+    case = replace(case_of(impact), tables=HALF)
+    found = predict_case(case, [1e-5, 2e-3, 4e-3], whole=False, progress=told.append).to_dict()
     first, early, late = found["times"]
     assert first["valid"] and agrees(first, "impulse")
     # a damped zone has no closed form once it spreads, and leaves no trace of its damping after a while
@@ -61,20 +63,13 @@ def test_theory_and_simulation_agree_before_reflections(kappa: float, damping: f
     assert told == sorted(told) and told[-1] == pytest.approx(1.0)
 
 
-def test_they_agree_as_long_as_the_theory_is_within_2_percent_of_the_stopped_beam() -> None:
+def test_they_agree_as_long_as_the_theory_is_within_2_percent_of_the_stopped_beam_whatever_else_is_asked() -> None:
     impact, times = Impact.whole_beam(2.0, relative_damping=1e-3), np.geomspace(6.9e-4, 0.069, CHECKED)
     theory = [row.impulse for row in predict(impact, times).times]
     near = np.abs(theory / StoppedBeam(1e-3).impulse(times) - 1.0) < 0.02
     assert not near.all()
-    agreement = predict_case(case_of(impact), [0.069], whole=False).agreement
-    assert agreement == pytest.approx({"from": times[0], "until": times[near][-1]})
-
-
-def test_a_time_beyond_those_that_are_simulated_leaves_the_others_compared() -> None:
-    impact = Impact.whole_beam(0.5, relative_damping=1e-2)
-    for times in ([2e-3], [2e-3, 1.1 * LATEST]):
-        found = predict_case(case_of(impact), times, whole=False)
-        assert found.agreement is not None and found.agreement["until"] == pytest.approx(2e-3)
+    found = predict_case(replace(case_of(impact), tables=HALF), [0.069, 1.1 * LATEST], whole=False)
+    assert found.agreement == pytest.approx({"from": times[0], "until": times[near][-1]})
     assert "are not simulated here" in " ".join(found.warnings)
 
 
@@ -90,7 +85,7 @@ def test_a_beam_of_no_damping_keeps_waves_that_grid_viscosity_absorbs_and_its_ba
 
 def test_a_rod_under_its_weight_leaves_with_what_is_known_of_it(tmp_path: Path) -> None:
     """0.6324 of its velocity, 0.6298 without shear."""
-    case = load_case(rod(tmp_path, element=0.0125), ["impact.gravity=9.81"])
+    case = load_case(rod(tmp_path, element=0.02), ["impact.gravity=9.81"])
     document = predict_case(case, [1e-4, 1e-3]).to_dict()
     assert json.loads(json.dumps(document, allow_nan=False)) == document
     restitution, largest = (document["whole_impact"][name] for name in ("restitution", "peak_stress"))
@@ -105,7 +100,7 @@ def test_a_rod_under_its_weight_leaves_with_what_is_known_of_it(tmp_path: Path) 
 
 def test_a_damping_that_is_not_stated_is_answered_over_three_and_one_that_is_stated_once(tmp_path: Path) -> None:
     """The numbers are those of the largest stress; where damping is stated nothing else is run."""
-    file = rod(tmp_path, element=0.05)
+    file = rod(tmp_path, element=0.1)
     file.write_text(file.read_text().replace("damping_ratio", "# damping_ratio"))
     asked = ("bounce", file)
     found = answered(*asked)
@@ -128,13 +123,10 @@ def test_a_pull_as_large_as_the_buckling_load_leaves_half_of_a_bow_and_a_tenth_o
     assert doubts(beam.replace(axial_force=-0.9 * np.pi**2, natural_curvature=0.0), None) == []  # likewise
 
 
-def test_what_touches_with_its_whole_length_at_once_is_said_of_a_gate_on_its_hinge_too() -> None:
+def test_a_gate_that_touches_all_at_once_mistaken_units_and_a_hole_that_bends_on_one_side_alone_are_doubted() -> None:
     gate = Impact(4.0, 1.0, 2.0, 0.0, 1.0, damping=1e-3, left_end="hinged")
     assert gate.off_centre and "its rebound is that of the contact law" in doubts(gate, None)[0]
     assert doubts(gate.replace(wall_stiffness=1e3), None) == []
-
-
-def test_sizes_in_mm_stiffness_in_gpa_and_a_hole_that_bends_on_one_side_alone_are_doubted() -> None:
     steel = {"wall_thickness": 0.01, "youngs_modulus": 206e9, "density": 7850.0}
     beam = {"beam": {"length": 3.0, "curvature": 0.01}, "impact": {"velocity": 1.0}}
 
@@ -149,15 +141,13 @@ def test_sizes_in_mm_stiffness_in_gpa_and_a_hole_that_bends_on_one_side_alone_ar
 
 
 def test_theory_and_simulation_agree_over_the_longest_time_and_not_at_the_most_instants(monkeypatch) -> None:
-    told = iter([1.0, 1.0, 1.0, 2.0, 1.0, 1.0])
     monkeypatch.setattr(predicting, "instant_numbers", lambda _: dict.fromkeys(COMPARED, Number(next(told), 0.01)))
     theory: Any = SimpleNamespace(times=[SimpleNamespace(half_contact_length=1.0, impulse=1.0)] * 6)
     runs: Any = SimpleNamespace(part=lambda _: None)
-    found = predicting._agreement([0.1, 0.2, 0.3, 0.4, 0.6, 1.0], theory, runs, 0)
-    assert found == {"from": 0.6, "until": 1.0}
-    told = iter([1.0, 1.0, 1.0, 2.0, 1.0, 1.0])
-    found = predicting._agreement([0.1, 0.2, 0.6, 0.8, 0.9, 1.0], theory, runs, 0)
-    assert found == {"from": 0.1, "until": 0.6}, "the later is not the longer"
+    for checked, span in (([0.1, 0.2, 0.3, 0.4, 0.6, 1.0], (0.6, 1.0)), ([0.1, 0.2, 0.6, 0.8, 0.9, 1.0], (0.1, 0.6))):
+        told = iter([1.0, 1.0, 1.0, 2.0, 1.0, 1.0])
+        found = predicting._agreement(checked, theory, runs, 0)
+        assert found == dict(zip(("from", "until"), span)), "the later is not the longer"
 
 
 def test_a_warning_of_one_of_several_runs_says_of_which() -> None:
@@ -185,8 +175,3 @@ def test_a_moment_that_the_theory_does_not_know_is_said_to_be_missing() -> None:
     damped = Impact.whole_beam(2.0, relative_damping=1e-3).replace(natural_curvature=1.0)
     found = predict_case(case_of(damped), [1e-3], theory_only=True)
     assert found.to_dict()["peak_moment"] is None and "(theory): not known" in str(found)
-
-
-@pytest.mark.parametrize("time", ["-1", "nan", "1e300"])
-def test_an_impossible_time_is_laid_to_its_option(time: str) -> None:
-    assert refused("predict", PIPE, "--time", time).startswith("error: --time: ")

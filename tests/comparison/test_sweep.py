@@ -4,7 +4,7 @@ import json
 
 import pytest
 import xarray
-from called import answered, command, refused
+from called import answered, command
 from histories import rod
 
 from comparison import sweep
@@ -63,26 +63,6 @@ def test_between_two_walls_a_row_is_what_predict_would_say_at_the_end_time(case)
     assert (row["peak_moment"]["value"], row["peak_moment"]["error"]) == (run["peak_moment"], run["peak_moment_error"])
     said = command("sweep", case, "--jobs", 1, "--vary", "impact.velocity=1", *words)[1]
     assert "numbers until the case's end time, 2 ms." in said
-
-
-@pytest.mark.parametrize(
-    ("vary", "said"),
-    [
-        ("velocity=1,2", "TABLE.KEY"),
-        ("impact.velocity=1:2", "1:2"),
-        ("impact.velocity=1:2:1", "from 2 on"),
-        ("impact.velocty=1,2", "did you mean velocity?"),
-        ("impact.velocity=1,,2", "TABLE.KEY"),
-        ("impact.velocity=0:1:20000", "from 2 on"),
-    ],
-)
-def test_what_is_no_sweep_is_refused_by_key_and_value(case, vary, said):
-    assert said in refused("sweep", case, "--jobs", 1, "--vary", vary)
-
-
-def test_two_keys_that_say_the_same_are_no_sweep(case):
-    said = refused("sweep", case, "--jobs", 1, "--vary", "impact.velocity=1,2", "--vary", "impact.drop_height=1,2")
-    assert "impact.velocity" in said and "says the same" in said
 
 
 def test_values_are_those_that_one_would_type():

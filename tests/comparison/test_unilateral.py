@@ -11,7 +11,6 @@ from bent_beam.meshes import UniformMesh
 from exudyn_models import ExudynModel
 from exudyn_models.integrators import GeneralizedAlpha
 from hermite_fe import HermiteFE
-from hermite_fe.integrators import SignoriniPosition
 
 AFTER = 0.005  # T*, from when on an end may be heard
 # κ/ν, load in V₀/T* and dampings (T*; steel damps a little) of the beams, instants, what is let pass: of the largest
@@ -48,8 +47,8 @@ def check(path, impact, refine=1.0):
 
 @pytest.mark.parametrize(
     ("path", "seed", "refine"),
-    [*((HermiteFE, [11, number], 1.0) for number in (1, 2, 4, 5)), (ExudynModel, 1, 0.5)],
-    ids=["lifted", "pressed", "a lifted thin front", "free", "Exudyn"],
+    [*((HermiteFE, [11, number], 1.0) for number in (2, 4, 5)), (ExudynModel, 1, 0.5)],
+    ids=["pressed", "a lifted thin front", "free", "Exudyn"],
 )
 def test_the_wall_never_pulls_and_gives_no_energy(path, seed, refine):
     check(path, drawn(path, np.random.default_rng(seed)), refine)
@@ -68,15 +67,6 @@ def test_the_wall_never_pulls_and_gives_no_energy_in_many_problems(path, count):
             check(path, impact)
         except Exception as error:
             raise AssertionError(f"seed {seed}, problem {number}, {impact}: {error}") from error
-
-
-@pytest.mark.parametrize("length", [1.0, 2.0, 3.0])
-def test_long_steps_on_a_short_beam_settle(length):
-    """Exchanging many rows at once runs in a circle there; the fall-back does not."""
-    impact = Impact.dimensionless(0.5, length=length)
-    history = HermiteFE(integrator=SignoriniPosition(growth=0.01)).simulate(impact, end_time=0.1, save=20)
-    assert history.completed
-    assert abs(history.energy_budget()["defect"]) < 1e-9
 
 
 def test_steps_too_long_for_the_contact_give_energy_and_the_run_says_so():

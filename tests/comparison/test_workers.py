@@ -106,13 +106,10 @@ def test_what_a_call_or_its_caller_raises_is_raised(where):
         run_all(root, [(4.0,), (9.0,)], progress=full, **where)
 
 
-def test_processes_of_this_machine_have_no_effect_next_to_a_scheduler():
+def test_a_scheduler_beside_jobs_or_that_does_not_answer_within_ten_seconds_is_bad_input(monkeypatch):
+    """The last of them accepts and stays mute."""
     with pytest.raises(ValueError, match="jobs has no effect next to scheduler"):
         run_all(root, [(4.0,)], jobs=2, scheduler="tcp://127.0.0.1:1")
-
-
-def test_a_scheduler_that_does_not_answer_is_bad_input_within_ten_seconds(monkeypatch):
-    """The last of them accepts and stays mute."""
     pytest.importorskip("distributed")
     assert workers.FIRST_ANSWER < 9.0
     monkeypatch.setattr(workers, "FIRST_ANSWER", 0.5)
