@@ -149,7 +149,6 @@ def describe(part: Any) -> dict[str, Any]:
     return out
 
 
-# from the tables of a case file -----------------------------------------------------------------------------
 def made_from(part: type[T], values: Any, where: str, more: Iterable[str] = ()) -> T:
     """The dataclass ``part`` from the table ``values``; ``more``: further keys that the error for an unknown one names.
 

@@ -201,8 +201,7 @@ def paths() -> list[str]:
 
 
 def method_type(path: str) -> type[Any]:
-    """The class of a path. Raises :class:`InputError` for a name that is not installed, that does not load, or that is
-    no method."""
+    """The class of a path. Raises :class:`InputError` for one that is not installed, does not load or is no method."""
     if path not in _found():
         raise InputError(f"path: {path!r} is not known{nearest(str(path), _found())}")
     try:
