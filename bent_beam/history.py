@@ -235,7 +235,6 @@ class ImpactHistory:
         return f"<ImpactHistory: {self.path}, {self.time.size} instants until {self.time[-1]:.4g} s>"
 
     def __contains__(self, name: str) -> bool:
-        """Whether the history has this variable."""
         return name in self.variables
 
     def array(self, name: str, k: int | slice | NDArray[np.intp] | None = None) -> NDArray[Any]:

@@ -49,8 +49,7 @@ USAGE_ERRORS: tuple[type[Exception], ...] = tuple(
 
 @app.callback(invoke_without_command=True)
 def bentbeam(
-    context: typer.Context,
-    version: Annotated[bool, typer.Option("--version", help="Print the version.")] = False,
+    context: typer.Context, version: Annotated[bool, typer.Option("--version", help="Print the version.")] = False
 ) -> None:
     """A naturally bent beam hits a wall: theory and simulations compared."""
     if version:

@@ -133,7 +133,6 @@ def draw_first_order(rows: Sequence[MatchRow], out: Path) -> list[Path]:
 
 
 def _named(first: First | None, tension: bool) -> str:
-    """A curve in the legend."""
     if first is None:
         return r"tension alone: $\lambda_N$, $r_N$"
     return f"({', '.join(f'{v:g}' for v in first[: 4 if tension else 3])})".replace("-", "−")

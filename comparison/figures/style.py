@@ -191,5 +191,4 @@ def label_panels(*axes: Axes) -> None:
 
 
 def bars(axis: Axes, x: Any, values: Any, errors: Any, mark: dict[str, Any]) -> None:
-    """Points with their error bars."""
     axis.errorbar(x, values, yerr=errors, elinewidth=0.8, capsize=2, **mark)
