@@ -32,6 +32,8 @@ from bent_beam.impact import Impact
 
 GROUP = "bentbeam.methods"
 Save = int | Sequence[float] | NDArray[np.float64]
+Progress = Callable[[float], None]
+"""Called with the finished fraction."""
 M = TypeVar("M")
 
 
@@ -60,12 +62,7 @@ class Method(Protocol):
         ...
 
     def simulate(
-        self,
-        impact: Impact,
-        *,
-        end_time: float | None = None,
-        save: Save = 200,
-        progress: Callable[[float], None] | None = None,
+        self, impact: Impact, *, end_time: float | None = None, save: Save = 200, progress: Progress | None = None
     ) -> ImpactHistory:
         """Follow ``impact`` to ``end_time`` (s). ``save``: number of saved instants, or their times, s.
 
@@ -154,12 +151,7 @@ def separation_times(impact: Impact, longest: float | None = None, save: int = 2
 
 
 def simulate_to_separation(
-    method: Method,
-    impact: Impact,
-    *,
-    longest: float | None = None,
-    save: int = 2000,
-    progress: Callable[[float], None] | None = None,
+    method: Method, impact: Impact, *, longest: float | None = None, save: int = 2000, progress: Progress | None = None
 ) -> ImpactHistory:
     """Follow ``impact`` until the beam is off the wall and cannot come back (:mod:`bent_beam.free_flight`); under
     loads, until it has not pushed for a period of its lowest mode.
