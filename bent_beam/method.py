@@ -112,10 +112,8 @@ def no_way_out() -> Iterator[None]:
 
 
 def simulated(run: Callable[..., ImpactHistory], impact: Impact, **how: Any) -> ImpactHistory:
-    """The history that ``run``, a method's, returns.
-
-    Raises what a method may raise, and :class:`bent_beam.SimulationError` for all else that somebody's method does.
-    """
+    """The history that ``run``, a method's, returns. Raises what a method may raise, and
+    :class:`bent_beam.SimulationError` for all else that somebody's method does."""
     try:
         with contextlib.chdir(os.getcwd()), no_way_out():  # and back, wherever it went
             history = run(impact, **how)

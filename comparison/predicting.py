@@ -168,10 +168,8 @@ class PredictedCase:
         return prediction_text(self.to_dict())
 
     def plot(self) -> Any:
-        """The whole impact, or where it is not known the run to the last time, as a Matplotlib figure.
-
-        Raises ``ValueError`` where nothing is simulated.
-        """
+        """The whole impact, or where it is not known the run to the last time, as a Matplotlib figure. Raises
+        ``ValueError`` where nothing is simulated."""
         from comparison.figures.history import impact_figure
 
         if self.whole is not None:

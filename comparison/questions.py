@@ -137,10 +137,8 @@ class Question:
 
     def _drawn(self, runs: int, seed: int) -> list[Method]:
         """An ensemble of a beam without damping: elements, steps and contact laws drawn at random; with a mesh,
-        contact or integrator that the user has stated, and of a path that draws nothing itself, coarser ones.
-
-        Raises ``ValueError`` where the path varies neither elements nor steps.
-        """
+        contact or integrator that the user has stated, and of a path that draws nothing itself, coarser ones. Raises
+        ``ValueError`` where the path varies neither elements nor steps."""
         random, found = np.random.default_rng(seed), list[Method]()
         stated = any(getattr(self.method, part, None) is not None for part in ("mesh", "contact", "integrator"))
         for _ in range(runs):

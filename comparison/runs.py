@@ -121,10 +121,8 @@ def runs_of(
 def kept(
     store: RunStore | None, asked: Mapping[str, Any], method: Method, read: Reading, run: Callable[[], ImpactHistory]
 ) -> Run:
-    """What ``read`` makes of ``run()``, or the same from ``store``.
-
-    asked : what the run depends on next to its ``method`` and the code of that, JSON-ready.
-    """
+    """What ``read`` makes of ``run()``, or the same from ``store``. asked : what the run depends on next to its
+    ``method`` and the code of that, JSON-ready."""
     if store is None:
         return Run.of(run(), read)
     computed = []
