@@ -176,8 +176,7 @@ def _check_buckling(impact: Impact) -> None:
 
 
 def lay_over(tables: dict[str, Any], assignments: Sequence[str]) -> None:
-    """Lay each ``table.key=value`` over ``tables``, in place. Raises :class:`InputError` for anything else, and for two
-    that say the same."""
+    """Lay each ``table.key=value`` over ``tables``, in place. Raises as :func:`lay_values`, and for anything else."""
     laid: dict[str, Any] = {}
     for assignment in assignments:
         key, sign, text = assignment.partition("=")

@@ -161,8 +161,8 @@ def _towards_wall(table: _ImpactTable) -> float:
 
 def _velocity(table: _ImpactTable, length: float, ends: tuple[str, str]) -> float:
     """V₀, m/s, at the first touch; with a held end, at the middle."""
-    way, given = _one_of(table, 0)
-    _only_with("impact.angular_arm", table.angular_arm, "impact.angular_speed", way == "angular_speed")
+    (way, given), arm = _one_of(table, 0), table.angular_arm
+    _only_with("impact.angular_arm", arm, "impact.angular_speed", way == "angular_speed")
     _only_with("impact.frequency", table.frequency, "impact.amplitude", way == "amplitude")
     if way == "velocity":
         return given
@@ -175,17 +175,15 @@ def _velocity(table: _ImpactTable, length: float, ends: tuple[str, str]) -> floa
             raise InputError(
                 f"impact.angular_speed needs one hinge to swing about: give impact.velocity (got {given!r})"
             )
-        if ends == ("free", "free") and table.angular_arm is None:
+        if ends == ("free", "free") and arm is None:
             raise InputError(
                 f"impact.angular_arm, m, is required next to impact.angular_speed (got {given!r} alone), of arms on "
                 "which a free beam swings without turning; of one that turns, give impact.velocity, of its middle, "
                 "and impact.rotation"
             )
-        if ends != ("free", "free") and table.angular_arm is not None:
-            raise InputError(
-                f"impact.angular_arm has no effect on a beam that swings about its hinge (got {table.angular_arm!r})"
-            )
-        return given * (table.angular_arm or length / 2.0)
+        if ends != ("free", "free") and arm is not None:
+            raise InputError(f"impact.angular_arm has no effect on a beam that swings about its hinge (got {arm!r})")
+        return given * (arm or length / 2.0)
     along = _towards_wall(table)
     if along <= 0.0:
         raise InputError(

@@ -38,5 +38,4 @@ def nearest(word: str, known: Iterable[str]) -> str:
 
 
 def unknown_key(where: str, key: str, known: Iterable[str]) -> InputError:
-    """The error for an unknown key."""
     return InputError(f"{where + '.' if where else ''}{key} is not a known setting{nearest(key, known)}")

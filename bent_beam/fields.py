@@ -149,7 +149,6 @@ def describe(part: Any) -> dict[str, Any]:
     return out
 
 
-# from the tables of a case file -----------------------------------------------------------------------------
 def made_from(part: type[T], values: Any, where: str, more: Iterable[str] = ()) -> T:
     """The dataclass ``part`` from the table ``values``; ``more``: further keys that the error for an unknown one names.
 
@@ -171,10 +170,8 @@ def made_from(part: type[T], values: Any, where: str, more: Iterable[str] = ()) 
 
 
 def part_from_table(kinds: Mapping[str, type], table: Any, where: str) -> Any:
-    """The part that ``table["kind"]`` names, its other keys being the part's fields.
-
-    Raises :class:`InputError` for an unknown kind, and as :func:`made_from`.
-    """
+    """The part that ``table["kind"]`` names, its other keys being the part's fields. Raises :class:`InputError` for an
+    unknown kind, and as :func:`made_from`."""
     if not isinstance(table, Mapping):
         raise InputError(f"{where} must be a table (got {checks.shortened(table)})")
     if "kind" not in table:

@@ -63,7 +63,6 @@ OF_NETCDF = {"DIMENSION_LIST", "REFERENCE_LIST"}  # references between variables
 CONTROL = {"Cc", "Cf", "Cs"}  # of Unicode
 
 
-# writing --------------------------------------------------------------------------------------------------
 def write_atomically(file: Path, content: str | bytes | memoryview) -> None:
     """Write a file so that a reader sees either nothing or all of it, and a killed run leaves no half of it. A link is
     followed.
@@ -96,7 +95,6 @@ def write_dataset(dataset: xr.Dataset, file: Path) -> None:
     write_atomically(file, content.getbuffer())
 
 
-# reading --------------------------------------------------------------------------------------------------
 def read_dataset(file: Path) -> xr.Dataset:
     """All of a netCDF file. ``ValueError`` in one line for what is none, or holds what a history does not."""
     import xarray as xr
@@ -188,10 +186,8 @@ def _check_attributes(thing: Any, name: str) -> None:
             raise ValueError(f"attribute {key[:40]!r} of {name} is too long")
 
 
-# what a history holds -------------------------------------------------------------------------------------
 def check_variables(variables: Mapping[str, Any]) -> None:
-    """Raise ``ValueError`` for a variable that is not what a history holds: dimensions, units, order and size of its
-    values."""
+    """Raise ``ValueError`` for a variable whose dimensions, units, order or size are not those of a history."""
     places = [variables[name] for name in ("time", "x", "contact_x")]
     sizes = {dimension: size for one in places for dimension, size in zip(one.dims, one.values.shape)}
     for name, variable in variables.items():
@@ -219,8 +215,7 @@ def check_variables(variables: Mapping[str, Any]) -> None:
 
 
 def check_contents(history: Any) -> None:
-    """Raise when an attribute or a variable of a stored history is not what it holds: numbers and JSON, nothing
-    else."""
+    """Raise when an attribute or a variable of a stored history is anything but numbers and JSON."""
     attributes, variables = history.attrs, history.variables
     for name in ("impact", "settings", "versions", "warnings", "path", "symmetry"):
         if not isinstance(attributes[name], str):

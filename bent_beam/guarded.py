@@ -46,8 +46,7 @@ ALARM = int(getattr(signal, "SIGALRM", 0))
 
 
 def serve(examine: Callable[[Path], object]) -> None:
-    """In the child: examine and read the files that are named on standard input, a line each; answer with null or a
-    reason."""
+    """In the child: examine and read the files named on standard input, a line each; answer with null or a reason."""
     import os
 
     import h5py

@@ -19,13 +19,12 @@ from numpy.typing import NDArray
 
 from bent_beam.files import ENERGIES, UNITS, check_contents, check_variables, read_dataset, write_dataset
 from bent_beam.impact import Impact
+from bent_beam.loads import Array
 from bent_beam.section import Section
 from bent_beam.versions import versions
 
 if TYPE_CHECKING:
     import xarray as xr
-
-Array = NDArray[np.float64]
 
 COORDINATES = ("time", "x", "contact_x")
 FORMAT = "bent-beam-impact history 2"
@@ -55,7 +54,6 @@ class ImpactHistory:
     variables: Mapping[str, Variable]
     attrs: Mapping[str, Any]
 
-    # making -------------------------------------------------------------------------------------------
     @classmethod
     def build(
         cls,
@@ -124,7 +122,6 @@ class ImpactHistory:
             held["section"] = json.dumps({"area": section.area, "section_modulus": section.section_modulus})
         return replace(self, attrs={**self.attrs, **held})
 
-    # reading ------------------------------------------------------------------------------------------
     @cached_property
     def dataset(self) -> xr.Dataset:
         """All of it, for xarray; values are shared."""
@@ -204,8 +201,7 @@ class ImpactHistory:
         y = -self.array("gap", k) - 0.5 * impact.wall_curvature * (x - impact.first_touch) ** 2
         slope = self.array("slope", k) if "slope" in self else np.gradient(y, x, axis=-1, edge_order=2)
         natural = impact.curvature if impact.natural_curvature is None else impact.natural_curvature
-        moment = impact.bending_stiffness * (end_curvatures(x, y, slope) + natural)
-        return moment, place
+        return impact.bending_stiffness * (end_curvatures(x, y, slope) + natural), place
 
     @property
     def force(self) -> Array:
@@ -239,7 +235,6 @@ class ImpactHistory:
         return f"<ImpactHistory: {self.path}, {self.time.size} instants until {self.time[-1]:.4g} s>"
 
     def __contains__(self, name: str) -> bool:
-        """Whether the history has this variable."""
         return name in self.variables
 
     def array(self, name: str, k: int | slice | NDArray[np.intp] | None = None) -> NDArray[Any]:
@@ -261,7 +256,6 @@ class ImpactHistory:
         initial = float(self.array("kinetic_energy")[0] + self.array("strain_energy")[0])
         return budget | {"initial_energy": initial, "defect": defect}
 
-    # keeping ------------------------------------------------------------------------------------------
     def save(self, file: str | Path) -> Path:
         """Write netCDF: a killed run or a full disk leaves either the whole file or none. Returns the path."""
         write_dataset(self.dataset, Path(file))
@@ -283,8 +277,7 @@ class ImpactHistory:
 
 
 def end_curvatures(x: Array, y: Array, slope: Array) -> Array:
-    """y_xx of the cubics between nodes at both ends of each element, (…, elements, 2), from deflections and slopes,
-    (…, nodes)."""
+    """y_xx of the cubics between nodes at both ends of each element, (…, elements, 2), from values at (…, nodes)."""
     h = np.diff(x)
     rise = np.diff(y, axis=-1) / h
     left = (6.0 * rise - 4.0 * slope[..., :-1] - 2.0 * slope[..., 1:]) / h

@@ -19,13 +19,10 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam.errors import InputError
-from bent_beam.loads import wall_scales
+from bent_beam.loads import Array, wall_scales
 from bent_beam.scales import Scales
-
-Array = NDArray[np.float64]
 
 FIRST_MODE = 4.730040744862704  # cos β cosh β = 1, of a free–free beam as of a clamped one
 BELOW, ABOVE, EARLIEST = 0.1, 1e6, 1e-4  # of the first mode, of the first mode, t*
@@ -70,8 +67,7 @@ def first_mode(impact: Scales) -> float:
 
 
 def is_damped(impact: Scales) -> bool:
-    """Whether the beam itself takes short waves away: little hysteretic loss damps them no more than long ones
-    (docs/damping.md)."""
+    """Whether the beam itself takes short waves away: little hysteretic loss damps them no more than long ones."""
     return bool(impact.damping > 0.0 or impact.hysteretic_loss >= LEAST_LOSS)
 
 

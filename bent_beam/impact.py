@@ -141,23 +141,19 @@ def _check_scales(impact: Impact) -> None:
 
 def _check_arrangement(impact: Impact) -> None:
     """``ValueError`` where supports, wall, first touch or bow contradict one another; it names field and value."""
-    half = impact.half_length
-    if abs(impact.first_touch) >= half:
-        raise InputError(
-            f"first_touch must lie on the beam, within {half!r} m of its middle (got {impact.first_touch!r})"
-        )
+    half, touch = impact.half_length, impact.first_touch
+    if abs(touch) >= half:
+        raise InputError(f"first_touch must lie on the beam, within {half!r} m of its middle (got {touch!r})")
     straight = not (impact.curvature or impact.wall_curvature or impact.fourth_derivative or impact.curvature_rate)
-    if impact.first_touch and straight:
-        raise InputError(
-            f"first_touch, the place of a bow's apex, has no effect on a straight beam (got {impact.first_touch!r})"
-        )
+    if touch and straight:
+        raise InputError(f"first_touch, the place of a bow's apex, has no effect on a straight beam (got {touch!r})")
     if impact.wall_curvature and impact.wall_curvature >= impact.curvature:
         raise InputError(
             f"wall_curvature must be less than the beam's curvature {impact.curvature!r}, or no point touches first "
             f"(got {impact.wall_curvature!r})"
         )
     if impact.opposite_wall is not None:  # behind the bow K s²/2 − q₀ s⁴/24 at the start
-        s, bend = max(abs(place - impact.first_touch) for place in impact.wall_span), impact.fourth_derivative
+        s, bend = max(abs(place - touch) for place in impact.wall_span), impact.fourth_derivative
         s = min(s, math.sqrt(6.0 * max(impact.curvature, 0.0) / bend)) if bend > 0.0 else s
         bow, room = 0.5 * impact.curvature * s**2 - bend * s**4 / 24.0, impact.opposite_wall
         if bow > room * (1.0 + 1e-9):

@@ -14,18 +14,16 @@ from dataclasses import dataclass
 from typing import Annotated, ClassVar, Protocol, Self, runtime_checkable
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam.checks import at_least, finite, shortened
 from bent_beam.errors import InputError
 from bent_beam.fields import Part, Quantity
+from bent_beam.loads import Array
 
 __all__ = [
     "MESHES", "GradedMesh", "Mesh", "NodesMesh", "ScaleFreeMesh", "SquareMesh", "UniformMesh", "checked_nodes",
     "mirrored", "snapped",
 ]  # fmt: skip
-
-Array = NDArray[np.float64]
 
 NEAR = 1e-9  # of the half length: a place so near the middle or an end of the beam lies there
 SLIVER = 0.01  # of an element: a place that leaves less of it asks for other elements

@@ -32,6 +32,8 @@ from bent_beam.impact import Impact
 
 GROUP = "bentbeam.methods"
 Save = int | Sequence[float] | NDArray[np.float64]
+Progress = Callable[[float], None]
+"""Called with the finished fraction."""
 M = TypeVar("M")
 
 
@@ -60,12 +62,7 @@ class Method(Protocol):
         ...
 
     def simulate(
-        self,
-        impact: Impact,
-        *,
-        end_time: float | None = None,
-        save: Save = 200,
-        progress: Callable[[float], None] | None = None,
+        self, impact: Impact, *, end_time: float | None = None, save: Save = 200, progress: Progress | None = None
     ) -> ImpactHistory:
         """Follow ``impact`` to ``end_time`` (s). ``save``: number of saved instants, or their times, s.
 
@@ -115,10 +112,8 @@ def no_way_out() -> Iterator[None]:
 
 
 def simulated(run: Callable[..., ImpactHistory], impact: Impact, **how: Any) -> ImpactHistory:
-    """The history that ``run``, a method's, returns.
-
-    Raises what a method may raise, and :class:`bent_beam.SimulationError` for all else that somebody's method does.
-    """
+    """The history that ``run``, a method's, returns. Raises what a method may raise, and
+    :class:`bent_beam.SimulationError` for all else that somebody's method does."""
     try:
         with contextlib.chdir(os.getcwd()), no_way_out():  # and back, wherever it went
             history = run(impact, **how)
@@ -154,12 +149,7 @@ def separation_times(impact: Impact, longest: float | None = None, save: int = 2
 
 
 def simulate_to_separation(
-    method: Method,
-    impact: Impact,
-    *,
-    longest: float | None = None,
-    save: int = 2000,
-    progress: Callable[[float], None] | None = None,
+    method: Method, impact: Impact, *, longest: float | None = None, save: int = 2000, progress: Progress | None = None
 ) -> ImpactHistory:
     """Follow ``impact`` until the beam is off the wall and cannot come back (:mod:`bent_beam.free_flight`); under
     loads, until it has not pushed for a period of its lowest mode.
@@ -201,8 +191,7 @@ def paths() -> list[str]:
 
 
 def method_type(path: str) -> type[Any]:
-    """The class of a path. Raises :class:`InputError` for a name that is not installed, that does not load, or that is
-    no method."""
+    """The class of a path. Raises :class:`InputError` for one that is not installed, does not load or is no method."""
     if path not in _found():
         raise InputError(f"path: {path!r} is not known{nearest(str(path), _found())}")
     try:

@@ -21,12 +21,10 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.polynomial import chebyshev
-from numpy.typing import NDArray
 
 from bent_beam.errors import InputError
 from bent_beam.impact import Impact
-
-Array = NDArray[np.float64]
+from bent_beam.loads import Array
 
 DEGREE = 80  # of a string whose ends bend over 1/100 of its half length the mode is right to 1e-8
 ROUND_OFF = 1e-3  # of the largest 1/ω²: a negative one beyond is no round-off of the zeros beside it
@@ -73,8 +71,7 @@ def _lowest_of(impact: Impact) -> tuple[float, Array]:
 
 @lru_cache(maxsize=64)
 def _lowest(ends: tuple[str, str], pull: float, compliance: float, inertia: float) -> tuple[float, Array] | None:
-    """ω, and coefficients of w, 1 in the middle, and φ, (2, degrees), in the units of (1); ``None`` of a beam that has
-    buckled."""
+    """ω, and coefficients of w, 1 in the middle, and φ, (2, degrees), in the units of (1); ``None``: it has buckled."""
     if compliance * pull <= -1.0:  # by shear alone
         return None
     points, every = chebyshev.chebpts1(DEGREE), np.eye(DEGREE + 1)

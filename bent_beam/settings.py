@@ -52,10 +52,8 @@ def settings() -> list[Setting]:
 
 
 def about(word: str) -> list[Setting]:
-    """The settings whose table, kind, name or text has ``word`` in it; all without one.
-
-    Raises :class:`InputError` where there are none.
-    """
+    """The settings whose table, kind, name or text has ``word`` in it; all without one. Raises :class:`InputError`
+    where there are none."""
     wanted, every = word.strip().lower().strip("[]"), settings()
     found = [one for one in every if wanted in f"{one.table}.{one.name} {one.kind} {one.text}".lower()]
     if not found:

@@ -14,8 +14,7 @@ from typing import Any
 def versions() -> dict[str, str]:
     """Versions of what a result depends on, by distribution name."""
     names = ("bent-beam-impact", "numpy", "scipy", "numba", "exudyn", "xarray")
-    found = {name: _version(name) for name in names}
-    return {name: version for name, version in found.items() if version is not None}
+    return {name: version for name in names if (version := _version(name)) is not None}
 
 
 @cache

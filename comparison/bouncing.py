@@ -79,7 +79,6 @@ def bounce(
     no damping, over :data:`DAMPING_RATIOS`.
 
     runs, seed : of the ensemble, where the beam has no damping. save : saved instants a T*.
-    store : where runs are kept.
     Raises ``ValueError`` for what the method refuses, :class:`bent_beam.SimulationError` when it cannot finish.
     """
     case = case_of(beam)

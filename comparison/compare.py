@@ -17,7 +17,7 @@ from bent_beam.checks import finite, whole
 from bent_beam.fields import part_from_table
 from bent_beam.measure.instant import so_far
 from bent_beam.measure.reduction import peak_moment
-from bent_beam.method import Method, method_type
+from bent_beam.method import Progress, method_type
 from bent_beam.versions import versions
 from comparison.readable import milliseconds, shown, text_table, unit_for
 
@@ -135,9 +135,7 @@ def _changed(pairs: dict[str, Any], where: str = "") -> list[list[str]]:
     return rows
 
 
-def rerun_history(
-    old: ImpactHistory, out: Path | None = None, progress: Callable[[float], None] | None = None
-) -> dict[str, Any]:
+def rerun_history(old: ImpactHistory, out: Path | None = None, progress: Progress | None = None) -> dict[str, Any]:
     """Simulate ``old``'s case with its settings and compare: ``identical`` (bit for bit), ``largest_difference``
     (relative, per variable, times and places included) and versions that differ. Keeps the new history in ``out``."""
     new = _again(old, progress).until(float(old.time[-1]))  # a run to a time goes on beyond it
@@ -174,13 +172,10 @@ def rerun_text(found: dict[str, Any]) -> str:
     return "\n".join(lines if found["file"] is None else [*lines, f"history: {found['file']}"])
 
 
-def _again(old: ImpactHistory, progress: Callable[[float], None] | None) -> ImpactHistory:
-    settings, saved = old.settings, old.settings.get("save", old.time.size)
-    save: Any
-    if isinstance(saved, list):
-        save = np.array([finite("history's save", time) for time in saved])
-    else:
-        save = whole("history's save", saved, 1)
+def _again(old: ImpactHistory, progress: Progress | None) -> ImpactHistory:
+    settings, name = old.settings, "history's save"
+    save = settings.get("save", old.time.size)
+    save = np.array([finite(name, time) for time in save]) if isinstance(save, list) else whole(name, save, 1)
     if "end_time" not in settings:
         raise InputError("history's settings lack end_time: it cannot be run again")
     method = method_type(old.path)
@@ -189,5 +184,4 @@ def _again(old: ImpactHistory, progress: Callable[[float], None] | None) -> Impa
         if values.get(name) is not None:  # described by its class: only known ones are ever made
             known = {kind.__name__: kind for kind in kinds.values()}
             values[name] = part_from_table(known, values[name], f"history's {name}")
-    made: Method = method(**values)
-    return made.simulate(old.impact, end_time=settings["end_time"], save=save, progress=progress)
+    return method(**values).simulate(old.impact, end_time=settings["end_time"], save=save, progress=progress)

@@ -34,8 +34,7 @@ __all__ = ["Swept", "bounce", "match", "predict", "sweep"]
 def predict(beam: Beam, *times: float, theory_only: bool = False, fresh: bool = False) -> PredictedCase:
     """Theory beside simulation at ``times``, s (default: the case's own), and the whole impact.
 
-    beam : a case, its file or tables, or an impact. theory_only : nothing is simulated. fresh : stored runs are
-        ignored.
+    beam : a case, its file or tables, or an impact. theory_only : no simulation. fresh : stored runs are ignored.
     Raises ``ValueError`` for what theory or simulation does not take, :class:`bent_beam.SimulationError`.
     """
     case = case_of(beam)

@@ -78,8 +78,7 @@ def comparable(impact: Impact) -> bool:
 
 
 def energy_at_end(history: ImpactHistory, until: float | None = None) -> dict[str, float | None]:
-    """The energies at the end, or at ``until``, s, in J, what was lost on the way, by cause, and the defect: what these
-    do not explain."""
+    """The energies at the end, or at ``until``, s, in J, what was lost by cause, and the defect that these leave."""
     budget = history.energy_budget(until)
     return {
         "initial": budget["initial_energy"],

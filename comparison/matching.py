@@ -77,10 +77,8 @@ def _moments(run: Run) -> Moments:
 def _run(
     store: RunStore, duration: float, clock: Clock | None, method: Method, impact: Impact, uniform: bool = False
 ) -> Run:
-    """A run to ``duration`` (t*), from the store where it is there, against the clock.
-
-    Raises :class:`Refused` for what the method refuses, before its run or in it.
-    """
+    """A run to ``duration`` (t*), from the store where it is there, against the clock. Raises :class:`Refused` for what
+    the method refuses, before its run or in it."""
     if reason := method.refuses(impact):
         raise Refused(str(reason))
 
@@ -97,18 +95,17 @@ def _run(
 
 @dataclass(frozen=True)
 class _Estimates:
-    """What the runs at one resolution gave: ``run`` alone without loads, ``runs`` all of them; ``base`` without loads
-    and ``loaded`` at each ε on the mesh for first order; ``pressure`` on the zone over ε."""
+    """What the runs at one resolution gave: all ``runs``, the one without loads first; ``base`` without loads and
+    ``loaded`` at each ε on the mesh for first order; ``pressure`` on the zone over ε."""
 
-    run: Run
     runs: list[Run]
     base: Moments | None = None
     loaded: Sequence[tuple[float, Moments]] = ()
     pressure: float = 0.0
 
     def leading(self, others: Sequence[_Estimates] = ()) -> LeadingEstimate:
-        companions, few = [_moments(other.run) for other in others], self.run.reading["unresolved"]
-        return leading_order(_moments(self.run), companions=companions, unresolved=few)
+        own, companions = self.runs[0], [_moments(other.runs[0]) for other in others]
+        return leading_order(_moments(own), companions=companions, unresolved=own.reading["unresolved"])
 
     def first(self, others: Sequence[_Estimates] = ()) -> FirstOrderEstimate | None:
         """``None`` where first order was not asked for."""
@@ -122,16 +119,14 @@ def _estimates(
     question: MatchQuestion, factor: float, run: Callable[..., Run], epsilon: float | None = None
 ) -> _Estimates:
     """Run and estimate at ``factor`` times the method's own resolution; ``epsilon`` is the largest ε, ``None``: chosen.
-
-    Raises :class:`Refused` for what the method refuses.
-    """
+    Raises :class:`Refused` for what the method refuses."""
     asked, first, bare = question.method, question.first, question.bare
     method = refined(asked, factor)
     if method is None:
         raise Refused(f"refine: {asked.path} does not know how to be refined (got {factor:g})")
     alone = run(method, bare)
     if first is None:
-        return _Estimates(alone, [alone])
+        return _Estimates([alone])
     if epsilon is None:
         perturbation = getattr(asked, "perturbation", PERTURBATION)
         epsilon = first_order_epsilon(leading_order(_moments(alone)), first, perturbation, question.duration)
@@ -143,7 +138,7 @@ def _estimates(
     pressed = largest.zone_pressure > 0.0
     base, *found = (run(fixed, question.loaded(share * epsilon), pressed) for share in (0.0, *SHARES))
     moved = [(share * epsilon, _moments(one)) for share, one in zip(SHARES, found)]
-    return _Estimates(alone, [alone, base, *found], _moments(base), moved, largest.zone_pressure / epsilon)
+    return _Estimates([alone, base, *found], _moments(base), moved, largest.zone_pressure / epsilon)
 
 
 def answer(question: MatchQuestion, store: RunStore, limit: float | None = None) -> MatchRow:
@@ -175,7 +170,7 @@ def answer(question: MatchQuestion, store: RunStore, limit: float | None = None)
     return MatchRow(
         **about(question),
         **with_theory(question, leading, estimate),
-        peak_force=_peak_force(question, fine.run, [o.run for o in others]),
+        peak_force=_peak_force(question, [found.runs[0] for found in (fine, *others)]),
         lift=leading.lift,
         **_largest(readings, "pull", "momentum_residual", "gap_of_push"),
         hold=_largest(holds, "until", "pull") if holds else None,
@@ -194,15 +189,14 @@ def _of_rigid_wall(question: MatchQuestion) -> list[str]:
     wall = on_elastic_wall(question.bare, contact_parameters(question.kappa_over_nu))
     if wall is None or wall.rigid_from <= question.duration:
         return []
-    known = math.isfinite(wall.rigid_from)
-    since = f"from {wall.rigid_from:.3g} t* on" if known else "at a time that is not known"
+    since = f"from {wall.rigid_from:.3g} t* on" if math.isfinite(wall.rigid_from) else "at a time that is not known"
     end = f"the run ends at {question.duration:g} t*"
     return [f"λ₀ and r₀ are held against a rigid wall; this one comes within 2 % of it {since} ({end})"]
 
 
-def _peak_force(question: MatchQuestion, run: Run, others: Sequence[Run]) -> Number:
+def _peak_force(question: MatchQuestion, runs: Sequence[Run]) -> Number:
     """The largest force on a wall that gives way, beside the theory of that wall."""
-    force, *coarser = (one.reading["peak_force"] for one in (run, *others))
+    force, *coarser = (one.reading["peak_force"] for one in runs)
     if force is None:
         return MISSING
     from theory.elastic_wall import FLATTEST, MOST_DAMPED, SHARPEST, peak_force

@@ -40,10 +40,8 @@ def check_effect(assignments: Iterable[str], names: Sequence[str], unused: Mappi
 def chosen_methods(
     names: Sequence[str], assignments: Sequence[str], files: Sequence[Path], case: Case | None = None
 ) -> list[Method]:
-    """The methods of ``--path`` and ``--set``, or those of each ``--methods FILE``; see :func:`methods_of`.
-
-    Raises :class:`InputError` when both name some.
-    """
+    """The methods of ``--path`` and ``--set``, or those of each ``--methods FILE``; see :func:`methods_of`. Raises
+    :class:`InputError` when both name some."""
     if not files:
         return methods_of(names or PATHS, assignments, case)
     if names or assignments:

@@ -16,10 +16,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam import Case, Method, SimulationError
-from bent_beam.history import REFLECTED, ImpactHistory
+from bent_beam.history import REFLECTED, Array, ImpactHistory
 from bent_beam.hysteresis import converges
 from bent_beam.measure.balance import balance_of
 from bent_beam.measure.estimators import lift_shares
@@ -55,9 +54,8 @@ VISCOSITY = 2e-3  # of an early number: what grid viscosity and start do to a ru
 
 def instants_reading(times: tuple[float, ...], first_spread: bool, history: ImpactHistory) -> dict[str, Any]:
     """What a run says at the last of ``times``, s, and at those before, JSON-ready."""
-    *earlier, last = times
-    before = [asdict(instant(history, t, first_spread=first_spread)) for t in earlier]
-    found = asdict(instant(history, last, first_spread=first_spread))
+    last = times[-1]
+    *before, found = (asdict(instant(history, t, first_spread=first_spread)) for t in times)
     if last > 0.0 and abs(found["reaction"] or 0.0) < ROUND_OFF * abs(found["impulse"]) / last:
         found |= {"reaction": 0.0, "half_contact_length": None}  # impulses of a beam in flight add up to round-off
     unit = history.impact.velocity * math.sqrt(history.impact.bending_stiffness * history.impact.mass_per_length)
@@ -109,7 +107,7 @@ def _crossings_of_force(runs: Runs) -> float:
     return FACTOR * float(more.sum()) / (2.0 * AROUND * runs.question.until)
 
 
-def _changes_around(runs: Runs) -> NDArray[np.float64]:
+def _changes_around(runs: Runs) -> Array:
     """What each companion changes of the impulse around the time, N s, shape (companions, instants)."""
     own = np.array(runs.run.reading["impulse_around"])
     found = [np.array(one.reading["impulse_around"]) - own for one in runs.companions.values()]
@@ -170,10 +168,8 @@ class PredictedCase:
         return prediction_text(self.to_dict())
 
     def plot(self) -> Any:
-        """The whole impact, or where it is not known the run to the last time, as a Matplotlib figure.
-
-        Raises ``ValueError`` where nothing is simulated.
-        """
+        """The whole impact, or where it is not known the run to the last time, as a Matplotlib figure. Raises
+        ``ValueError`` where nothing is simulated."""
         from comparison.figures.history import impact_figure
 
         if self.whole is not None:
@@ -200,7 +196,6 @@ def predict_case(
 ) -> PredictedCase:
     """Theory beside simulation at ``times`` (s, each ≥ 0), and, with ``whole``, the whole impact.
 
-    store : where runs are kept. progress : called with the finished fraction of the simulations.
     Raises ``ValueError`` for what the theory does not cover, :class:`bent_beam.SimulationError` where a simulation
     cannot finish.
     """

@@ -17,7 +17,6 @@ companion shows is a known size (CONTRIBUTING.md says where).
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
@@ -29,10 +28,8 @@ from bent_beam.hysteresis import branches_of, converges, is_damped
 from bent_beam.impact import BEFORE_WAVES_RETURN, Impact
 from bent_beam.loads import beyond_first_order
 from bent_beam.measure.instant import BEYOND
-from bent_beam.method import Method, for_whole_beam, refined, simulate_to_separation, simulated
+from bent_beam.method import Method, Progress, for_whole_beam, refined, simulate_to_separation, simulated
 
-Progress = Callable[[float], None]
-"""Called with the finished fraction."""
 EARLY = 0.003  # T*
 COARSER, FINER = 0.5, 2.0
 DRAWN, SEED = 5, 15  # runs of an ensemble at a time, without damping
@@ -140,10 +137,8 @@ class Question:
 
     def _drawn(self, runs: int, seed: int) -> list[Method]:
         """An ensemble of a beam without damping: elements, steps and contact laws drawn at random; with a mesh,
-        contact or integrator that the user has stated, and of a path that draws nothing itself, coarser ones.
-
-        Raises ``ValueError`` where the path varies neither elements nor steps.
-        """
+        contact or integrator that the user has stated, and of a path that draws nothing itself, coarser ones. Raises
+        ``ValueError`` where the path varies neither elements nor steps."""
         random, found = np.random.default_rng(seed), list[Method]()
         stated = any(getattr(self.method, part, None) is not None for part in ("mesh", "contact", "integrator"))
         for _ in range(runs):

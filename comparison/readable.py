@@ -19,7 +19,6 @@ RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 SMALL, LARGE = 1e-3, 1e5  # beyond them a power of ten
 WIDEST = 400  # characters of a table
 
-
 BEAMS = {
     "timoshenko": "The beam bends and shears (Timoshenko).",
     "euler_bernoulli": "The beam bends and does not shear (Euler and Bernoulli).",
@@ -102,8 +101,7 @@ def number_from(found: dict[str, Any] | None) -> Number | Band:
 
 
 def largest_of(section: Any) -> tuple[str, str, str]:
-    """By which number the largest load on a beam is known, in words, and its unit: its stress, or without a section
-    (``None``) its moment."""
+    """Name, title and unit of the largest load on a beam: its stress, or without a section (``None``) its moment."""
     return ("peak_moment", "bending moment", "N m") if section is None else ("peak_stress", "stress", "Pa")
 
 

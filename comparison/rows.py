@@ -46,10 +46,9 @@ EXTREME = 1e30  # of ε: its powers are calculated with
 @dataclass(frozen=True)
 class MatchQuestion:
     """One row to be matched. ``first`` : (α, ψ, χ, N), or ``None`` for the leading order alone; ``refine`` : elements
-    and steps so many times finer than the method's own; ``error_bars`` : "drift" (of the run alone), "quick" (a
-    companion at half the resolution, a quarter of the work), "thorough" (one at twice the resolution too); ``duration``
-    : end of the runs, t*. Any will do at ε = 0, which is self-similar; the thesis ends at 0.1; ``wall`` : stiffness of
-    the wall over μ/t*² and its damping ratio, ``None`` of a rigid one."""
+    and steps so many times finer than the method's own; ``error_bars`` : of :data:`comparison.questions.ERROR_BARS`;
+    ``duration`` : end of the runs, t*. Any will do at ε = 0, which is self-similar; the thesis ends at 0.1; ``wall`` :
+    stiffness of the wall over μ/t*² and its damping ratio, ``None`` of a rigid one."""
 
     method: Method
     kappa_over_nu: float
@@ -196,9 +195,8 @@ def with_theory(question: MatchQuestion, leading: Any, estimate: Any) -> dict[st
     exact = contact_parameters(question.kappa_over_nu, **question.loads)
     row: dict[str, Any] = {"regime": str(exact.regime)}
     for name, source in (("lambda0", leading), ("r0", leading), ("lambda1", estimate), ("r1", estimate)):
-        number = MISSING if source is None else getattr(source, name)
         theory = getattr(exact, name) if name in ("lambda0", "r0") or question.first else None
-        row[name] = replace(number, theory=theory)
+        row[name] = replace(getattr(source, name, MISSING), theory=theory)
     return row
 
 
@@ -243,9 +241,7 @@ def first_order_epsilon(leading: LeadingEstimate, first: First, perturbation: fl
     front = leading.front
     z = front + 1.0 / math.sqrt(1.0 + front**2)
     alpha, psi, chi, axial = (abs(v) for v in first)
-    part = perturbation
-    if front > 0.0:
-        part *= front / (front + 0.2)
+    part = perturbation * (front / (front + 0.2) if front > 0.0 else 1.0)
     top = part / (duration * (alpha / 2 + chi * z**2 / 2 + psi * z**4 / 24 + axial / 2))
     return between("first_order: the largest ε of the runs, from alpha, psi, chi and N,", top, 1 / EXTREME, EXTREME)
 

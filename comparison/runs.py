@@ -72,10 +72,9 @@ class Runs:
 
     @property
     def warnings(self) -> list[str]:
-        """What the run says, what steps and mesh took of its energy, what is out of balance, and which companions are
-        missing."""
-        lost = loss_warnings(self.run.reading["energy"])
-        return [*self.run.warnings, *lost, *self.balance.warnings, *self.lost]
+        """What the run says, what steps and mesh took, what is out of balance, which companions are missing."""
+        energy = self.run.reading["energy"]
+        return [*self.run.warnings, *loss_warnings(energy), *self.balance.warnings, *self.lost]
 
     @property
     def balance(self) -> Balance:
@@ -122,10 +121,8 @@ def runs_of(
 def kept(
     store: RunStore | None, asked: Mapping[str, Any], method: Method, read: Reading, run: Callable[[], ImpactHistory]
 ) -> Run:
-    """What ``read`` makes of ``run()``, or the same from ``store``.
-
-    asked : what the run depends on next to its ``method`` and the code of that, JSON-ready.
-    """
+    """What ``read`` makes of ``run()``, or the same from ``store``. asked : what the run depends on next to its
+    ``method`` and the code of that, JSON-ready."""
     if store is None:
         return Run.of(run(), read)
     computed = []

@@ -163,8 +163,7 @@ def _run(first_spread: bool, until: float, history: ImpactHistory) -> dict[str, 
 
 def _whole_run(history: ImpactHistory) -> dict[str, Any]:
     """A whole impact, and its end as an instant."""
-    found = whole_reading(history)
-    return instants_reading((float(history.time[-1]),), False, history) | {"whole": found}
+    return instants_reading((float(history.time[-1]),), False, history) | {"whole": whole_reading(history)}
 
 
 def _leading(runs: Runs) -> dict[str, Number]:

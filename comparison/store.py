@@ -48,12 +48,6 @@ def check_writable(out: Path | None, *, folder: bool) -> None:
         raise InputError(f"--out: {out} cannot be written: {why.lower()}") from None
 
 
-def default_store() -> Path:
-    """``$BENTBEAM_STORE``, or the user's cache folder."""
-    usual = user_cache_path("bent-beam-impact", appauthor=False) / "runs"
-    return Path(os.environ.get("BENTBEAM_STORE") or usual)
-
-
 def _canonical(value: Any) -> str:
     return json.dumps(value, sort_keys=True, separators=(",", ":"), allow_nan=False)
 
@@ -70,12 +64,12 @@ class RunStore:
 
     @classmethod
     def usual(cls, fresh: bool = False) -> RunStore:
-        """That of :func:`default_store`; ``fresh``: one that keeps nothing, so that nothing stored is read."""
-        return cls(None if fresh else default_store())
+        """``$BENTBEAM_STORE``, or in the user's cache folder; ``fresh``: one that keeps nothing, so reads nothing."""
+        cache = user_cache_path("bent-beam-impact", appauthor=False) / "runs"
+        return cls(None if fresh else Path(os.environ.get("BENTBEAM_STORE") or cache))
 
     def answer(self, question: Mapping[str, Any], compute: Callable[[], dict[str, Any]]) -> dict[str, Any]:
-        """The kept answer to ``question``, or ``compute()``'s, kept from now on; all JSON-ready. Nothing is kept where
-        ``source`` is unknown."""
+        """The kept answer to ``question``, or ``compute()``'s, kept unless ``source`` is unknown; all JSON-ready."""
         if self.folder is None or question.get("source", "") is None:
             return compute()
         key = _digest(_canonical({"question": dict(question), "versions": versions(), "source": source_digest()}))

@@ -103,10 +103,7 @@ def cases_of(
     tables: Mapping[str, Any], vary: Mapping[str, Sequence[Any]]
 ) -> list[tuple[dict[str, Any], Case | InputError]]:
     """Each combination of the values of ``vary`` (``table.key`` → values), the last key varying fastest, and what it
-    laid over a case's ``tables`` makes.
-
-    Raises :class:`InputError` for a combination that is no case where none of them is.
-    """
+    laid over a case's ``tables`` makes. Raises :class:`InputError` where none of them is a case."""
     count = int(np.prod([len(values) for values in vary.values()]))
     if not vary or not 1 <= count <= MOST:
         raise InputError(f"vary: takes at least one key with values, and {MOST} rows at most (got {count} rows)")

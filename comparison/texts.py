@@ -191,8 +191,7 @@ def wall_lines(document: dict[str, Any]) -> list[str]:
 
 
 def bounce_text(found: dict[str, Any], *, verbose: bool = False) -> str:
-    """What ``bentbeam bounce --json`` holds: every number with its error bar, in SI; ``verbose``: also in units of the
-    beam, with places and times."""
+    """What ``bentbeam bounce --json`` holds, in SI; ``verbose``: also in units of the beam, with places and times."""
     rows = []
     for name, about in WHOLE.items():
         document = found["energy"].get(name) or found.get(name)

@@ -141,8 +141,7 @@ def end_with_parent(parent: int) -> None:
 
 @contextmanager
 def no_code_from_here() -> Iterator[None]:
-    """Pythons started meanwhile do not look for modules in the folder where this one was called: they are told where
-    by their parent."""
+    """Pythons started meanwhile look for modules where their parent says, not in the folder where it was called."""
     before = os.environ.get("PYTHONSAFEPATH")
     os.environ["PYTHONSAFEPATH"] = "1"
     try:

@@ -19,14 +19,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from bent_beam.history import Array
 from bent_beam.measure.moments import Moments
 from bent_beam.measure.numbers import FACTOR, Number, number_of
 
 __all__ = ["FirstOrderEstimate", "LeadingEstimate", "first_order", "leading_order", "lift_shares"]
 
-Array = NDArray[np.float64]
 SIDE = math.sqrt(2.0 / math.pi)
 FLOOR = 2e-3  # of the larger of λ₁ and r₁: what halving mesh and steps moves them by
 # What no companion shows, held against methods drawn at random (benchmarks/coverage.py, make coverage):
@@ -65,9 +64,6 @@ class FirstOrderEstimate:
     window: tuple[float, float]
 
 
-# --- least squares with a scatter that is not white ---------------------------------------------------------------
-
-
 def _fit(tau: Array, values: Array, power: float, weight_power: float) -> float:
     """c of c τ^power (+ an offset, which takes the start's error), rows weighted by τ^−weight_power."""
     weight = tau**-weight_power
@@ -90,16 +86,12 @@ def _numbers(best: Array, companions: Sequence[Array], known: Mapping[str, Array
     return [number_of(float(best[i]), {"mesh_and_step": float(other[i])}, parts[i]) for i in range(best.size)]
 
 
-# --- leading order ---------------------------------------------------------------------------------------------
-
-
 def leading_order(
     found: Moments, *, window: float = 10.0, companions: Sequence[Moments] = (), unresolved: float = 0.0
 ) -> LeadingEstimate:
     """λ₀ and r₀ from the last factor ``window`` of time of one run at ε = 0.
 
     unresolved : l*, :func:`bent_beam.measure.moments.unresolved_at_end`; λ₀ is no surer than that over √τ.
-
     companions : the same run with elements and steps twice as long (and, for thorough bars, twice as short). What mesh,
     steps and start do to the answer falls at least like Δx, so that the difference from the coarser run is the size of
     the error; without companions only the drift over the window measures it.
@@ -158,9 +150,6 @@ def _leading_values(found: Moments, window: float) -> tuple[Array, Array, float,
     usable = [c for c in cuts if (inside & (tau >= c[0]) & (tau <= c[1])).sum() >= 6]
     drift = np.ptp([best, *(values(*c) for c in usable)], axis=0)
     return best, drift, float(found.lift[inside].max()), (float(tau[inside][0]), float(last))
-
-
-# --- first order -----------------------------------------------------------------------------------------------
 
 
 def first_order(
@@ -228,14 +217,9 @@ def first_order(
         "leading_order": np.array([0.0, inherited]),
         "least": np.full(2, FLOOR * np.abs(best).max()),
     }
-    found_r1, found_lambda1 = _numbers(best, [np.array([c.r1.known, c.lambda1.known]) for c in companions], known)
-    return FirstOrderEstimate(
-        lambda1=found_lambda1,
-        r1=found_r1,
-        uniform_reaction=float(reaction.mean()),
-        epsilons=tuple(row[0] for row in rows),
-        window=(float(tail.tau[late][0]), float(tail.tau[-1])),
-    )
+    r1, lambda1 = _numbers(best, [np.array([c.r1.known, c.lambda1.known]) for c in companions], known)
+    fitted = float(tail.tau[late][0]), float(tail.tau[-1])
+    return FirstOrderEstimate(lambda1, r1, float(reaction.mean()), tuple(row[0] for row in rows), fitted)
 
 
 def _coefficient(rows: Sequence[tuple[float, Array, Array]], power: float, degree: int, start: float) -> float:

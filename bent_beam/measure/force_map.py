@@ -7,9 +7,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from bent_beam.history import ImpactHistory
-
-Array = NDArray[np.float64]
+from bent_beam.history import Array, ImpactHistory
 
 
 def force_map(history: ImpactHistory, kept: NDArray[np.int64], edges: Array) -> Array:

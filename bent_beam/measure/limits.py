@@ -46,9 +46,8 @@ def limited_as(history: ImpactHistory) -> str:
 
 def beyond_limits(path: str, checks: Any) -> list[str]:
     """A sentence for each of the ``checks``, attributes by the names of the limits, that exceeds its limit."""
-    shares = ((name, getattr(checks, name), limit) for name, limit in (OF_ALL | LIMITS.get(path, ELSEWHERE)).items())
     return [
         SAYS[name].format(share=share, percent=100.0 * share, limit=limit)
-        for name, share, limit in shares
-        if share is not None and abs(share) > limit
+        for name, limit in (OF_ALL | LIMITS.get(path, ELSEWHERE)).items()
+        if (share := getattr(checks, name)) is not None and abs(share) > limit
     ]

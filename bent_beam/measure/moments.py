@@ -15,14 +15,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bent_beam.history import ImpactHistory
+from bent_beam.history import Array, ImpactHistory
 
 __all__ = [
     "Moments", "element_at", "first_front", "half_contact_length", "jump_of_rim", "lift", "local_front",
     "mean_reaction", "moments", "one_side", "unresolved", "unresolved_at_end", "unsure",
 ]  # fmt: skip
-
-Array = NDArray[np.float64]
 
 ZONE = 0.7  # of the front: what pushes there is what the zone behind the front bears
 AROUND = 0.1  # of the time, before and after
@@ -46,9 +44,6 @@ class Moments:
     pressure: Array
     front: Array
     lift: Array
-
-
-# --- reading a history -------------------------------------------------------------------------------------------
 
 
 def one_side(history: ImpactHistory) -> tuple[Array, Array]:
@@ -145,8 +140,7 @@ def _smooth(time: Array, values: Array) -> Array:
 
 
 def lift(history: ImpactHistory) -> Array:
-    """Largest gap inside nine tenths of the contact zone over V₀t at the saved instants, shape (times,); 0 without a
-    zone."""
+    """Largest gap inside nine tenths of the zone over V₀t at the saved instants, shape (times,); 0 without a zone."""
     front = local_front(history.time, *one_side(history))
     found = np.zeros(history.time.size)
     for k, t in enumerate(history.time):
@@ -154,9 +148,6 @@ def lift(history: ImpactHistory) -> Array:
         if t > 0.0 and inside.any():
             found[k] = max(0.0, float(history.array("gap", k)[inside].max())) / (history.impact.velocity * t)
     return found
-
-
-# --- around one instant ------------------------------------------------------------------------------------------
 
 
 def _last_tenth(time: Array) -> NDArray[np.intp]:

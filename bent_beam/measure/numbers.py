@@ -76,9 +76,8 @@ class Number:
     def scaled(self, unit: float, shift: float = 0.0, name: str = "") -> Number:
         """The number in another unit, called ``name``, and a known constant added."""
         value, theory = (None if v is None else v * unit + shift for v in (self.value, self.theory))
-        size = abs(unit)
-        parts = {cause: part * size for cause, part in self.parts.items()}
-        return Number(value, None if self.bar is None else self.bar * size, theory, name, parts)
+        parts = {cause: part * abs(unit) for cause, part in self.parts.items()}
+        return Number(value, None if self.bar is None else self.bar * abs(unit), theory, name, parts)
 
     def to_dict(self) -> dict[str, Any]:
         """Value and bar, and the theory where there is one, JSON-ready."""
@@ -161,8 +160,7 @@ class Band:
 
 
 def _digits(error: float) -> int:
-    """How many digits of an error are written: two where the first is 1, as to round 0.0149 to 0.01 would take a third
-    of it."""
+    """How many digits of an error are written: two where the first is 1, since 0.01 for 0.0149 is a third less."""
     return 2 if f"{error:.1e}".startswith("1") else 1
 
 

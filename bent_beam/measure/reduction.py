@@ -6,11 +6,9 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam.history import ImpactHistory
 
-Array = NDArray[np.float64]
 CHUNK = 256  # saved instants at once
 OF_RUN, OF_BEAM = 0.02, 0.002  # see _first_resolved
 RESOLVED = 10.0  # elements that a bending wave must have passed before a moment is one of the beam, not of its mesh
@@ -97,8 +95,7 @@ def hold_of(history: ImpactHistory) -> dict[str, float | None] | None:
 
 
 def pull_of(history: ImpactHistory) -> float | None:
-    """Largest negative over largest positive contact impulse between two saved instants, after the start; ``None``
-    where nothing pushed."""
+    """Largest pull over largest push between two saved instants, after the start; ``None`` where nothing pushed."""
     time = history.time
     first = int(np.searchsorted(time, MAY_BE_HELD * time[-1]))
     gains = np.diff(history.array("impulse", slice(first, None)), axis=0)

@@ -4,7 +4,6 @@ import sys
 
 
 def main() -> None:
-    """Load the command line and run it."""
     try:
         from comparison.command_line import app
     except KeyboardInterrupt:

@@ -49,8 +49,7 @@ USAGE_ERRORS: tuple[type[Exception], ...] = tuple(
 
 @app.callback(invoke_without_command=True)
 def bentbeam(
-    context: typer.Context,
-    version: Annotated[bool, typer.Option("--version", help="Print the version.")] = False,
+    context: typer.Context, version: Annotated[bool, typer.Option("--version", help="Print the version.")] = False
 ) -> None:
     """A naturally bent beam hits a wall: theory and simulations compared."""
     if version:
@@ -154,12 +153,11 @@ def run(arguments: Sequence[str] | None = None) -> int:
 
 
 NUMBER = re.compile(r"\s*[-+]?(?:(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?|nan|inf(?:inity)?)\s*", re.A | re.I)
-OF_FILES = ("--out", "--methods")
+OF_FILES = ("--out", "--methods")  # whose names may look like such a number
 
 
 def check_numbers(words: Sequence[str]) -> None:
-    """``InputError`` for what Python reads as a number and a reader may not: 1_0, digits of other scripts. Names of
-    files may look like that."""
+    """``InputError`` for what Python reads as a number and a reader may not: 1_0, digits of other scripts."""
     for before, word in zip(["", *words], words):
         option, value = word.split("=", 1) if word.startswith("--") and "=" in word else (before, word)
         for text in value.split(",") if option.startswith("-") and option not in OF_FILES else ():

@@ -14,14 +14,12 @@ from comparison.command_line.options import check_out, complete, emit, of_path, 
 
 
 def section_kinds(incomplete: str) -> list[str]:
-    """Completion of ``--section``."""
     from bent_beam.section import SECTIONS
 
     return complete(list(SECTIONS), incomplete)
 
 
 def example_names(incomplete: str) -> list[str]:
-    """Completion of ``--like``."""
     from bent_beam.new_case import examples
 
     return complete(sorted(examples()), incomplete)
@@ -30,8 +28,7 @@ def example_names(incomplete: str) -> list[str]:
 def new(
     out: Annotated[Path, typer.Argument(metavar="FILE.toml", help="Where to write the case.")] = Path("my_beam.toml"),
     section: Annotated[
-        str | None,
-        typer.Option(help="pipe (default), round_bar, rectangle or general.", autocompletion=section_kinds),
+        str | None, typer.Option(help="pipe (default), round_bar, rectangle or general.", autocompletion=section_kinds)
     ] = None,
     like: Annotated[
         str | None, typer.Option(help="An example to start from: tube, rail, …", autocompletion=example_names)

@@ -18,7 +18,6 @@ from bent_beam.errors import InputError
 
 
 def path_names(incomplete: str) -> list[str]:
-    """Completion of ``--path``: what is installed."""
     from bent_beam.method import paths
 
     return complete(paths(), incomplete)

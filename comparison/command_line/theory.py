@@ -98,8 +98,8 @@ def match(
     asked = questions(compared, kappas, loads, factors(refine), error_bars, duration, _wall(wall))
     check_writable(out, folder=True)
     with progress(f"{len(asked)} rows", quiet) as bar:
-        how = {"store": RunStore.usual(fresh), "jobs": jobs, "scheduler": scheduler, "limit": limit}
-        rows = match_all(asked, progress=bar.count, **how)  # type: ignore[arg-type]
+        store, told = RunStore.usual(fresh), bar.count
+        rows = match_all(asked, store=store, jobs=jobs, scheduler=scheduler, limit=limit, progress=told)
     emit(rows.to_dict(), as_json, lambda: str(rows))
     if out is not None:
         from comparison.figures.matching import write_match

@@ -92,8 +92,7 @@ def _compare(top: Axes, below: Axes, rows: Sequence[MatchRow], what: str) -> Non
 
 
 def draw_first_order(rows: Sequence[MatchRow], out: Path) -> list[Path]:
-    """λ₁ and r₁ over κ/ν for every (α, ψ, χ, N) among the rows, λ_N and r_N where it is tension alone: a curve of the
-    theory each, and the points."""
+    """λ₁ and r₁ over κ/ν for every (α, ψ, χ, N) among the rows, λ_N and r_N of tension alone: theory and points."""
     asked = [r for r in rows if r.of_first_order]
     # in free flight α differs with κ/ν, and λ₁, r₁ are λ_N, r_N times the axial force: one curve
     groups: dict[First | None, list[MatchRow]] = {}
@@ -134,7 +133,6 @@ def draw_first_order(rows: Sequence[MatchRow], out: Path) -> list[Path]:
 
 
 def _named(first: First | None, tension: bool) -> str:
-    """A curve in the legend."""
     if first is None:
         return r"tension alone: $\lambda_N$, $r_N$"
     return f"({', '.join(f'{v:g}' for v in first[: 4 if tension else 3])})".replace("-", "−")

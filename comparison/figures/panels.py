@@ -8,16 +8,15 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam import Impact, ImpactHistory
 from bent_beam.free_flight import acting
+from bent_beam.history import Array
 from bent_beam.measure.reduction import wall_peaks
 from bent_beam.measure.whole_impact import WINDOW
 from comparison.figures import style
 from comparison.readable import milliseconds, unit_for
 
-Array = NDArray[np.float64]
 Panel = Callable[[Any, ImpactHistory, float], None]
 """Draws a run on an axis, until a time, s."""
 WINDOWS, FEWEST = 160, 40  # of the force: on a wall that gives way; on a rigid one, else they are ten times shorter

@@ -128,9 +128,7 @@ def mark(path: str) -> dict[str, Any]:
 
 
 def wall_below(axis: Axes, low: float, high: float) -> None:
-    """Limits of an axis of deflections y, from ``low`` (off the wall) to ``high`` (inside it), and the wall itself, at
-    the bottom.
-    """
+    """Limits of an axis of deflections y, from ``low`` (off the wall) to ``high`` (inside it), and the wall below."""
     axis.axhspan(0.0, max(high, 0.0) * 2.0 + 1e-30, color="#E8E8E8", lw=0, zorder=0)
     axis.axhline(0.0, color=COLOURS["grey"], lw=0.7, zorder=0.5)
     axis.set_ylim(high, low)
@@ -193,5 +191,4 @@ def label_panels(*axes: Axes) -> None:
 
 
 def bars(axis: Axes, x: Any, values: Any, errors: Any, mark: dict[str, Any]) -> None:
-    """Points with their error bars."""
     axis.errorbar(x, values, yerr=errors, elinewidth=0.8, capsize=2, **mark)

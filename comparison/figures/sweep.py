@@ -24,10 +24,8 @@ LOUD = 0.1  # of the value: larger bars are marked on a map
 
 
 def sweep_figure(found: SweepTable) -> Any:
-    """Largest stress (or moment), largest force and restitution over the keys, as a Matplotlib figure.
-
-    Raises ``ValueError`` for more than two keys, and where no row has a number.
-    """
+    """Largest stress (or moment), largest force and restitution over the keys, as a Matplotlib figure. Raises
+    ``ValueError`` for more than two keys, and where no row has a number."""
     if len(found.vary) > 2:
         raise ValueError(f"vary: one or two keys can be drawn (got {len(found.vary)}); take .table or .to_dataset()")
     shown = [name for name in SHOWN if any(_values(found, name))]

@@ -139,8 +139,7 @@ def _line(axis: Any, rows: Sequence[MatchRow], what: str, mark: dict[str, Any]) 
 
 
 def _marks(rows: Sequence[MatchRow]) -> dict[str, dict[str, Any]]:
-    """Marker and colour by label: few methods as everywhere; many by contact and integrator, where that tells them
-    apart."""
+    """Marker and colour by label: few as everywhere; many by contact and integrator, where that tells them apart."""
     labels = list(dict.fromkeys(r.label for r in rows))
     chosen = {r.label: [r.settings.get(name) for name in ("integrator", "contact")] for r in rows}
     parts = {
