@@ -128,24 +128,19 @@ def solution(
 ) -> None:
     """r₁ or λ₁ over κ/ν for several (α, ψ, χ); the number beside it is that of ``load`` at κ/ν = ``at``."""
     symbol, short = {"r1": ("$r_1$", "r₁"), "lambda1": (r"$\lambda_1$", "λ₁")}[name]
-    spread = np.geomspace(SMALLEST, 0.2, 100), np.linspace(0.2, 1.2, 400), np.array([0.3, 0.5, 0.8, 1.0])
-    ratios = np.unique(np.concatenate(spread))
+    words = {one: ", ".join(map(readable, one)) for one in loads}
+    ratios = np.unique([*np.geomspace(SMALLEST, 0.2, 100), *np.linspace(0.2, 1.2, 400), 0.3, 0.5, 0.8, 1.0])
     with sheet.figure(width=4.2, height=2.9) as (_, axis):
         axis.set(xlabel=r"$\kappa/\nu$  (1)", ylabel=f"{symbol}  (1)", ylim=limits)
         for one, line in zip(loads, IN_TURN):
             values = np.array(getattr(contact_parameters(ratios, *one), name), float)
             if name == "lambda1":
                 values[ratios == 1.0] = np.nan  # it jumps to 0 there: no line across
-            sheet.line(axis, ratios, values, series=text_of(one), **line)
+            sheet.line(axis, ratios, values, series=words[one], **line)
         guide(axis, x=1.0, y=0.0)
         axis.set_xlim(SMALLEST, 1.2)
         axis.legend(title=r"$\alpha$, $\psi$, $\chi$", loc="center left", bbox_to_anchor=(1.0, 0.5))
-    found = float(getattr(contact_parameters(at, *load), name))
-    sheet.numbers[f"{short} for ({text_of(load)}) at κ/ν = {at:g}"] = found
-
-
-def text_of(load: Load) -> str:
-    return ", ".join(readable(v) for v in load)
+    sheet.numbers[f"{short} for ({words[load]}) at κ/ν = {at:g}"] = float(getattr(contact_parameters(at, *load), name))
 
 
 SETS = "The sets (α, ψ, χ) of the thesis's legend are not in its text; these include all that its text names"

@@ -13,9 +13,8 @@ from matplotlib.axes import Axes
 from scipy.interpolate import CubicHermiteSpline
 
 from bent_beam.history import ImpactHistory
-from bent_beam.measure.numbers import Number
 from bent_beam.meshes import UniformMesh
-from bent_beam_programs.thesis.gallery.drawing import nearest, plain_line
+from bent_beam_programs.thesis.gallery.drawing import plain_line
 from bent_beam_programs.thesis.gallery.runs import case, thesis
 from bent_beam_programs.thesis.sheet import Sheet, item, items
 from bent_beam_programs.thesis.studies.exact import Exact
@@ -45,20 +44,15 @@ def element_length(curvature: float) -> float:
 @functools.cache
 def noisy() -> dict[float, Outcome]:
     """κ/ν → the thesis's own run: its settings, middles, lumped mass, τ = 0.1."""
-    return {
-        k / 20.0: thesis(f"K = {name}", k, 0.1, element_length=element_length(k), mass=THESIS_MASS)
-        for name, k in CURVATURES.items()
-    }
+    curvatures = CURVATURES.values()
+    return {k / 20.0: thesis("", k, 0.1, element_length=element_length(k), mass=THESIS_MASS) for k in curvatures}
 
 
 @functools.cache
 def matched() -> list[MatchRow]:
     """Hermite, and Exudyn at every second curvature, with automatic choices; kept runs are used."""
-    asked = [
-        question
-        for path, ratios in (("hermite", THESIS_KAPPAS), ("exudyn", THESIS_KAPPAS[::2]))
-        for question in questions(methods_of((path,)), ratios, error_bars="drift")
-    ]
+    asked = questions(methods_of(("hermite",)), THESIS_KAPPAS, error_bars="drift")
+    asked += questions(methods_of(("exudyn",)), THESIS_KAPPAS[::2], error_bars="drift")
     rows = match(asked, store=RunStore.usual())
     if not any(r.lambda0.measured for r in rows):
         raise ValueError(rows[0].reason or "no row has a number")
@@ -79,14 +73,11 @@ def parameters(sheet: Sheet) -> None:
     prints g = 1; 3.3.4 concludes g = 0, and 3.3.3 and 3.4 say that the runs have it.
     """
     chosen = [resolution.choose(given.impact, given.end_time) for given in (case(1 / 80, 0.1), case(10.0, 0.1))]
-    lengths = [np.diff(c.nodes) for c in chosen]
+    lengths, steps = [np.diff(c.nodes) for c in chosen], [c.integrator for c in chosen]
     rows: dict[str, tuple[str, list[str]]] = {
         "contact": ("element middles", [kind(c.contact) for c in chosen]),
         "integrator": ("nonsmooth generalised-α", [kind(c.integrator) for c in chosen]),
-        "time step h": (
-            "2.5·10⁻⁸ s",
-            [f"max({readable(c.integrator.time_step, 2)} s, {c.integrator.growth:g} t)" for c in chosen],
-        ),
+        "time step h": ("2.5·10⁻⁸ s", [f"max({readable(i.time_step, 2)} s, {i.growth:g} t)" for i in steps]),
         "damping": ("ρ∞ = 0.8", [kind(c.far_field) for c in chosen]),
         "restitution": ("g = 1 (printed), 0 (used)", [f"{c.contact.restitution:g}" for c in chosen]),
         "held behind the front": ("–", [f"{c.contact.hold} rows" if c.contact.hold else "none" for c in chosen]),
@@ -114,20 +105,14 @@ def curvatures(sheet: Sheet) -> None:
     sheet.table(["K (1/m)", "κ/ν", "λ₀", "r₀/ν", "elements per front"], rows, width=4.6)
 
 
-def shares(number: Number) -> tuple[float, float]:
-    """Difference from theory and error bar, over theory."""
-    return float(number.relative() or 0.0), float(number.relative_bar() or 0.0)
-
-
 def compare(sheet: Sheet, what: str, symbol: str, error: str) -> None:
     """Theory's curve, the thesis's settings and both paths, and their differences below."""
     ratios = np.geomspace(4e-4, 0.99, 300)
-    old = {k: v for k, o in noisy().items() if (v := o.measures[error]) is not None}
-    cross = plain_line("grey", "", marker="x", ms=4.5)
-    points = [("thesis's settings", cross, [(k, v / 100.0, 0.0) for k, v in old.items()])]
+    old = [(k, v / 100.0, 0.0) for k, o in noisy().items() if (v := o.measures[error]) is not None]
+    points = [("thesis's settings", plain_line("grey", "", marker="x", ms=4.5), old)]
     for name, mark in style.marks(r.label for r in matched()).items():
-        mine = [r for r in matched() if r.label == name and getattr(r, what).measured]
-        points.append((name, mark, [(r.kappa_over_nu, *shares(getattr(r, what))) for r in mine]))
+        mine = [(r.kappa_over_nu, getattr(r, what)) for r in matched() if r.label == name and getattr(r, what).measured]
+        points.append((name, mark, [(k, float(n.relative() or 0.0), float(n.relative_bar() or 0.0)) for k, n in mine]))
     with sheet.figure(2, 1, width=4.6, height=4.9, sharex=True, height_ratios=[1.5, 1]) as (_, (top, below)):
         top.set(xscale="log", yscale="log", ylabel=f"{symbol}  (1)")
         below.set(xlabel=r"$\kappa/\nu$  (1)", ylabel="difference  (%)")
@@ -166,8 +151,6 @@ items(__name__, compare, (
 ))  # fmt: skip
 
 
-# discrete contact
-
 CURVATURE, DURATION, ELEMENT = 25.0, 0.01, 5e-2
 STEP, END = 2.5e-8, 2.5e-5  # s
 LATE = 1.6e-3  # s, end of the run with middles
@@ -203,7 +186,7 @@ def geometry(sheet: Sheet, axis: Axes, history: ImpactHistory, times: tuple[floa
     near, between = x <= 0.16, np.linspace(0.0, 0.15, 121)
     axis.set(xlabel="$x$  (m)", ylabel="deflection $y$  (mm)")
     for i, (t, colour) in enumerate(zip(times, style.SEQUENCE)):
-        k, name = nearest(history.time, t), f"t = {1e6 * t:.4g} µs"
+        k, name = int(np.abs(history.time - t).argmin()), f"t = {1e6 * t:.4g} µs"
         cubic = CubicHermiteSpline(x, -1e3 * gap[k], 1e3 * slope[k])
         sheet.line(axis, between, cubic(between), series=name, color=colour, lw=2.2 - 0.4 * i)
         drawn = {"color": colour, "ls": "", "marker": "o", "ms": 3, "mfc": "none"}

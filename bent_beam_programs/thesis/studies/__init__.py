@@ -21,7 +21,7 @@ from bent_beam_programs.thesis.sheet import Sheet
 from bent_beam_programs.thesis.studies import conditioning, first_order_case, numerical, of_exudyn
 from bent_beam_programs.thesis.studies.base import Study, StudyResult, outcomes_of
 from bent_beam_programs.thesis.studies.of_methods import CONCLUSION, draw_methods, runs_of_methods
-from bent_beam_programs.thesis.studies.outcome import MEASURES, Outcome
+from bent_beam_programs.thesis.studies.outcome import MEASURES
 from bent_beam_programs.thesis.studies.thesis import Progress, run_variants
 
 SAME = 30  # characters of a warning that tell its kind: its numbers differ from run to run
@@ -60,6 +60,10 @@ def run_study(
     else:
         outcomes = outcomes_of(study, case, jobs=jobs, progress=progress)
     rows = [o.row() for o in outcomes]
+    warnings: dict[tuple[str, str], str] = {}  # each kind of a method once, with its first run
+    for o in (o for o in outcomes if methods or o.mark is not None):
+        for text in o.warnings:
+            warnings.setdefault((o.method, text[:SAME]), f"{o.name}: {text}")
     measured = MEASURES if methods else study.columns
     result = StudyResult(
         name=study.name,
@@ -69,7 +73,7 @@ def run_study(
         rows=rows,
         conclusion=CONCLUSION if methods else study.conclusion,
         files=[],
-        warnings=_warnings([o for o in outcomes if methods or o.mark is not None]),
+        warnings=list(warnings.values()),
     )
     if out is not None:
         sheet = Sheet()
@@ -82,15 +86,6 @@ def run_study(
         except OSError as error:  # the answer is worth more than its files
             result.problem = f"out: {error}"
     return result
-
-
-def _warnings(outcomes: Sequence[Outcome]) -> list[str]:
-    """Each kind of warning of a method once, with its first run."""
-    found: dict[tuple[str, str], str] = {}
-    for o in outcomes:
-        for text in o.warnings:
-            found.setdefault((o.method, text[:SAME]), f"{o.name}: {text}")
-    return list(found.values())
 
 
 def _write(result: StudyResult, sheet: Sheet, out: Path) -> None:

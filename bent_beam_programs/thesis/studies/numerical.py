@@ -1,4 +1,6 @@
-"""Studies of numerical parameters: time step, mesh and far field; contact, restitution and damping (thesis 3.3)."""
+"""Studies of numerical parameters: time step, mesh and far field; contact and mass (thesis 3.3.5, Figs 3.22–3.28) with
+their coupling c = W_{j,j±1}/W_jj (:mod:`hermite_fe.contacts`), restitution and damping.
+"""
 
 from __future__ import annotations
 
@@ -16,9 +18,7 @@ from bent_beam_programs.thesis.studies.thesis import MASSES, POINTS, Runs, Setti
 from comparison.readable import readable
 from hermite_fe.contacts import impact_coupling
 
-# The time step h (thesis 3.3.1, Figs 3.7–3.9, Table 3.1).
-
-STEPS_TRIED = (40.0, 4.0, 2.0, 1.0, 0.4)  # times the thesis's
+STEPS_TRIED = (40.0, 4.0, 2.0, 1.0, 0.4)  # times the thesis's (3.3.1, Figs 3.7–3.9, Table 3.1)
 STEP_FACTORS = (4.0, 2.0, 1.0, 0.5)  # times a method's own
 STEPS = ("time_step", "growth", "relative_step")  # fields of an integrator that give the length of its steps
 
@@ -47,9 +47,7 @@ def time_step_vary(on: MethodOnCase) -> list[Variant]:
 TIME_STEP = Study("time-step", "time step", time_step_variants, time_step_vary)
 
 
-# The mesh (thesis 3.3.2, Figs 3.10–3.16).
-
-LENGTHS = (2.0, 1.0, 0.6, 0.3)
+LENGTHS = (2.0, 1.0, 0.6, 0.3)  # times the thesis's (3.3.2, Figs 3.10–3.16)
 GROWTHS = (1.05, 1.02)
 LENGTH_FACTORS = (2.0, 1.0, 0.5)  # times the elements of a method's own mesh
 PER_ELEMENT = 5.0  # the thesis's a: steps a front spends in each element of the square mesh
@@ -91,8 +89,6 @@ def mesh_vary(on: MethodOnCase) -> list[Variant]:
 
 MESH = Study("mesh", "mesh", mesh_variants, mesh_vary)
 
-
-# The waves that leave: growth of the elements, absorption at grid scale, a sponge, a longer beam.
 
 FAR_GROWTHS = (1.25, 1.1, 1.05, 1.02)
 ABSORBERS = ("far_field", "element")  # parts that may have a viscosity of the grid
@@ -136,9 +132,6 @@ def far_field_vary(on: MethodOnCase) -> list[Variant]:
 FAR_FIELD = Study("far-field", "far field", far_field_variants, far_field_vary)
 
 
-# The contact point and the mass matrix (thesis 3.3.5, Figs 3.22–3.28), with their coupling c = W_{j,j±1}/W_jj
-# (:mod:`hermite_fe.contacts`).
-
 NAMES = {"node": "nodes", "middle": "middles", "mean": "mean gaps", "straight": "middles of straight lines"}
 
 
@@ -174,9 +167,7 @@ def contact_point_vary(on: MethodOnCase) -> list[Variant]:
 CONTACT_POINT = Study("contact-point", "contact, mass", contact_point_variants, contact_point_vary)
 
 
-# The coefficient of restitution (thesis 3.3.4, Figs 3.19–3.21): 0, ½ and 1.
-
-COEFFICIENTS = (0.0, 0.5, 1.0)
+COEFFICIENTS = (0.0, 0.5, 1.0)  # thesis 3.3.4, Figs 3.19–3.21
 
 
 def restitution_variants(case: Case) -> list[Variant]:
@@ -195,10 +186,7 @@ RESTITUTION = Study(
 )  # fmt: skip
 
 
-# Numerical damping (thesis 3.3.3, Figs 3.17, 3.18): the spectral radius ρ∞, and bending viscosity at grid scale.
-
-RADII = (1.0, 0.8, 0.5, 0.2, 0.0)
-
+RADII = (1.0, 0.8, 0.5, 0.2, 0.0)  # ρ∞; thesis 3.3.3, Figs 3.17, 3.18
 DAMPS: dict[str, Callable[[float], float]] = {
     "spectral_radius": lambda radius: radius,
     "theta": lambda radius: 1.0 / (1.0 + radius),

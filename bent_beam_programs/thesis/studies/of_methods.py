@@ -10,11 +10,9 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.ticker import NullFormatter
 
 from bent_beam.cases import Case
@@ -66,11 +64,6 @@ class MethodOnCase:
             raise NotVaried(f"{self.method.path} has no {name}")
         return dict(self.method.PARTS[name])
 
-    @cached_property
-    def chosen(self) -> Any:
-        """The method with all that it leaves open chosen for the case."""
-        return chosen_for(self.method, self.case.impact, self.case.end_time)
-
     def part(self, name: str, *, filled: bool = False) -> Any:
         """A part as the method has it; where it is left open, of the kind that is chosen for the case.
 
@@ -80,7 +73,7 @@ class MethodOnCase:
         own = getattr(self.method, name)
         if own is not None and not filled:
             return own
-        chosen = getattr(self.chosen, name)
+        chosen = getattr(chosen_for(self.method, self.case.impact, self.case.end_time), name)
         if chosen is None:
             raise NotVaried(f"{self.method.path} chooses its {name} in the run: name one")
         if filled:
@@ -179,20 +172,12 @@ def draw_methods(sheet: Sheet, heading: str, outcomes: Sequence[Outcome]) -> Non
                 if points:
                     x, y = np.array(points, float).T
                     sheet.line(axis, x, np.maximum(y, SMALLEST), series=label, **mark | {"ls": "-", "lw": 0.7})
-            _decades(axis)
-            axis.set_ylabel(title)
+            axis.set(yscale="log", ylabel=title)
+            axis.yaxis.set_minor_formatter(NullFormatter())
+            if drawn := [np.asarray(line.get_ydata(), float) for line in axis.lines]:  # over whole decades
+                low, high = np.log10([np.concatenate(drawn).min(), np.concatenate(drawn).max()])
+                axis.set_ylim(10.0 ** np.floor(low - 0.02), 10.0 ** np.ceil(high + 0.02))
             axis.set_xticks(range(len(settings)), settings, rotation=45.0, ha="right", rotation_mode="anchor")
             axis.set_xlim(-0.4, len(settings) - 0.6)
         for axis in axes[-1]:
             axis.set_xlabel(heading)
-
-
-def _decades(axis: Axes) -> None:
-    """A logarithmic axis over whole decades."""
-    axis.set_yscale("log")
-    axis.yaxis.set_minor_formatter(NullFormatter())
-    drawn = [line.get_ydata() for line in axis.lines]
-    if drawn:
-        values = np.concatenate([np.asarray(y, float) for y in drawn])
-        low, high = np.log10([values.min(), values.max()])
-        axis.set_ylim(10.0 ** np.floor(low - 0.02), 10.0 ** np.ceil(high + 0.02))

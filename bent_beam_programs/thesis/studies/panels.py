@@ -120,10 +120,8 @@ def _over_time(
     exact, end = runs[0][0].exact, float(runs[0][0].time[-1])
     times = end * np.linspace(0.0, 1.0, 301)[1:] ** 2
     values = np.zeros(0) if theory is None else theory(exact, times)
-    if largest is None:
-        top = max(float(np.abs(y).max(initial=0.0)) for y in (values, *(y for *_, y in runs)))
-    else:
-        top = largest(exact, end)
+    every = (values, *(y for *_, y in runs))
+    top = largest(exact, end) if largest else max(float(np.abs(y).max(initial=0.0)) for y in every)
     (st, mt), (sy, my) = unit(end, "s"), unit(max(top, 1e-12), name)
     axis.set(xlabel=f"$t$  ({mt})" + (", scaled as $\\sqrt{t}$" if root else ""), ylabel=f"{label}  ({my})")
     for o, line, t, y in runs:
@@ -188,8 +186,7 @@ def banded(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome]) -> None:
     for o, line in runs:
         if o.steps is None:
             continue
-        found = o.steps.filtered()
-        edges = end * np.linspace(0.0, 1.0, WINDOWS + 1) ** 2
+        found, edges = o.steps.filtered(), end * np.linspace(0.0, 1.0, WINDOWS + 1) ** 2
         cuts = np.searchsorted(o.steps.time, edges)
         low, high = np.array([np.quantile(found[i : max(j, i + 1)], TENTHS) for i, j in pairwise(cuts)]).T
         middle = 0.5 * (edges[1:] + edges[:-1])
@@ -197,8 +194,6 @@ def banded(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome]) -> None:
         for name, values in (("a tenth is below", low), ("a tenth is above", high)):
             sheet.record(axis, st * middle, sy * values, f"{o.label}, {name}")
 
-
-# differences, where curves lie on one another
 
 _NOTHING: dict[str, Any] = {"theory": lambda exact, t: 0.0 * t, "bottom": None, "thin": True}
 
@@ -237,17 +232,13 @@ def geometry_off(base: str) -> Panel:
     def draw(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome]) -> None:
         (first,) = (o for o in outcomes if o.label == base)
         edge = REACH * float(first.exact.front(float(first.time[-1])))
-        curves = [
-            (o, line, x, np.interp(x, first.x, first.gap) - o.gap[o.x <= edge])
-            for o, line in _finished(outcomes)
-            if o.mark is None
-            for x in [o.x[o.x <= edge]]
-        ]
-        largest = max(float(np.abs(y).max()) for *_, y in curves)
+        runs = [(o, line, o.x <= edge) for o, line in _finished(outcomes) if o.mark is None]
+        off = [np.interp(o.x[near], first.x, first.gap) - o.gap[near] for o, _, near in runs]
+        largest = max(float(np.abs(y).max()) for y in off)
         (sx, mx), (sy, my) = unit(edge, "m"), unit(max(largest, 1e-12), "m")
         axis.set(xlabel=f"$x$  ({mx})", ylabel=f"$y$ $-$ that of {base}  ({my})", xlim=(0.0, sx * edge))
-        for o, line, x, y in curves:
-            sheet.line(axis, sx * x, sy * y, series=o.label, **line)
+        for (o, line, near), y in zip(runs, off):
+            sheet.line(axis, sx * o.x[near], sy * y, series=o.label, **line)
 
     return draw
 
