@@ -26,7 +26,6 @@ from platformdirs import user_cache_path
 
 from bent_beam.errors import InputError, nearest
 from bent_beam.versions import versions
-from bent_beam_programs.open_benchmark.problem import Problem
 from comparison.store import PACKAGES, digest_of_files, installed, source_digest
 
 ADAPTERS = Path(__file__).parent / "adapters"
@@ -57,10 +56,6 @@ class Adapter:
     manual: tuple[Sequence[str], ...] = ()
     resolutions: tuple[str, ...] = RESOLUTIONS
 
-    def takes(self, asked: Problem) -> bool:
-        """Whether the code is asked this problem at all."""
-        return not self.kinds or asked.kind in self.kinds
-
     @property
     def folder(self) -> Path:
         """Of its environment: in ``$BENTBEAM_ENVIRONMENTS``, or in the user's cache folder."""
@@ -69,7 +64,6 @@ class Adapter:
 
     @property
     def python(self) -> Path:
-        """The interpreter it runs with."""
         if self.debian:
             return Path(SYSTEM_PYTHON)
         if not self.install:
@@ -78,7 +72,6 @@ class Adapter:
         return Path(scripts) / ("python.exe" if WINDOWS else "python")
 
     def command(self, problem_file: Path, result_file: Path, resolution: str) -> list[str]:
-        """The words of its command line."""
         start = [str(self.python), str(self.file)] if self.file.suffix == ".py" else [str(self.file)]
         return [*start, str(problem_file), str(result_file), resolution, *self.arguments]
 
@@ -119,7 +112,7 @@ class Adapter:
 
 
 def shipped_adapters() -> dict[str, Adapter]:
-    """The adapters that are shipped, by name."""
+    """By name."""
     with open(ADAPTERS / "adapters.toml", "rb") as stream:
         tables = tomllib.load(stream)
     found = {}
@@ -179,8 +172,6 @@ def install(adapter: Adapter) -> str:
     return f"{name}: {', '.join(adapter.install)} in {folder}"
 
 
-# --- what the code of an adapter depends on -------------------------------------------------------------------------
-
 CODE = (".py", ".so", ".pyd")
 _distributions = cache(packages_distributions)  # to ask takes a second where many are installed
 
@@ -215,10 +206,10 @@ def _imported_by(file: Path) -> set[str]:
         tree = ast.walk(ast.parse(file.read_bytes())) if file.suffix == ".py" else ()
     except (SyntaxError, ValueError):
         return set()
-    names: set[str] = set()
+    names: list[str] = []
     for node in tree:
         if isinstance(node, ast.Import):
-            names |= {one.name.partition(".")[0] for one in node.names}
+            names += [one.name for one in node.names]
         elif isinstance(node, ast.ImportFrom) and not node.level:
-            names.add(str(node.module).partition(".")[0])
-    return names
+            names.append(str(node.module))
+    return {name.partition(".")[0] for name in names}

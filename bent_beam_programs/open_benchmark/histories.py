@@ -40,38 +40,23 @@ def result_from_history(history: ImpactHistory, asked: Problem | None = None) ->
     keep = keep[tau[keep] > 0.0]
     places = np.array([history.positions(int(k)) for k in keep]) / length
     nodes = np.sort(np.abs(places[-1]))
-    model = {
-        "time_step": _last_step(history) / time,
-        "half_length": float(nodes[-1]),
-        "smallest_element": float(np.diff(np.unique(nodes)).min()),
-        "theory": "Euler-Bernoulli",
-    }
+    model = {"theory": "Euler-Bernoulli", "time_step": _last_step(history) / time, "half_length": float(nodes[-1])}
     metadata = {
         "tool": f"bent-beam-impact, {history.path}",
         "version": history.versions.get("bent-beam-impact", ""),
         "seconds": history.seconds,
         "steps": history.steps,
         "settings": history.settings,
-        "model": model,
+        "model": model | {"smallest_element": float(np.diff(np.unique(nodes)).min())},
     }
-    still = "contact_position" not in history
-    return Result(
-        "completed" if history.completed else "diverged",
-        "" if history.completed else f"{tau[-1]:g}",
-        asked,
-        metadata,
-        tau,
-        history.array("total_impulse") / impulse,
-        one_side(history)[1] / (impulse * length),
-        series,
-        places,
-        tau[keep],
-        history.array("gap", keep) / length,
-        history.array("velocity", keep) / impact.velocity if "velocity" in history else None,
-        history.contact_positions(0) / length if still else None,
-        history.array("impulse") / impulse if still else None,
-        pull_is_read_off=False,
-    )
+    total, moment = history.array("total_impulse") / impulse, one_side(history)[1] / (impulse * length)
+    shown = {"x": places, "snap_tau": tau[keep], "snap_gap": history.array("gap", keep) / length}
+    if "velocity" in history:
+        shown["snap_v"] = history.array("velocity", keep) / impact.velocity
+    if "contact_position" not in history:
+        shown |= {"node_x": history.contact_positions(0) / length, "node_impulse": history.array("impulse") / impulse}
+    stated = ("completed", "") if history.completed else ("diverged", f"{tau[-1]:g}")
+    return Result(*stated, asked, metadata, tau, total, moment, series, **shown, pull_is_read_off=False)
 
 
 def _problem_of(history: ImpactHistory) -> Problem:

@@ -24,7 +24,7 @@ from bent_beam.versions import processor
 from bent_beam_programs.open_benchmark.adapter import GIVEN, RESOLUTIONS, Adapter, shipped_adapters
 from bent_beam_programs.open_benchmark.campaign import Row
 from bent_beam_programs.open_benchmark.judgement import LOADED, Score
-from bent_beam_programs.open_benchmark.problem import LADDER, Problem, problem
+from bent_beam_programs.open_benchmark.problem import LADDER, problem
 
 MEASURES = {"lambda0": "λ₀", "r0": "r₀", "lambda1": "λ₁", "r1": "r₁", "restitution": "e", "impulse_error": "J(t)"}
 MEASURES |= {"peak_force": "the largest force", "peak_time": "its time"}
@@ -117,7 +117,7 @@ def _sheet(rows: Sequence[Row], name: str, solvers: Sequence[str], out: Path) ->
     """A problem's part of a table; its figures are written to ``out``, too."""
     own = [row for row in rows if row.problem == name]
     wanted = LOADED if problem(name).kind == "first" else MEASURES
-    figures = {m: _svg(_figure(own, m, solvers)) for m in wanted if any(_point(row, m) for row in own)}
+    figures = {m: _figure(own, m, solvers) for m in wanted if any(_point(row, m) for row in own)}
     for measure, text in figures.items():
         write_atomically(out / f"{name}-{measure}.svg", text)
     shown = [measure for measure in MEASURES if any(measure in row.score.measured for row in own)]
@@ -130,14 +130,6 @@ def _sheet(rows: Sequence[Row], name: str, solvers: Sequence[str], out: Path) ->
     }
 
 
-def _regime(asked: Problem) -> str:
-    """Which loads act on an infinite beam."""
-    alpha, psi, _, axial = asked.loads
-    if axial:
-        return "tension" if axial > 0.0 else "compression"
-    return "lift-off" if alpha + psi < 0.0 else "pressed"
-
-
 def write_page(
     rows: Sequence[Row], adapters: Sequence[Adapter], out: Path, about: dict[str, Any] | None = None
 ) -> Path:
@@ -146,18 +138,18 @@ def write_page(
     page. ``about`` : :func:`document` of both."""
     about = about or document(rows, adapters)
     solvers = list(dict.fromkeys([*(a.name for a in adapters), *(row.solver for row in rows)]))
-    tables = {name: [row for row in rows if row.table == name] for name in ("run here", "self-declared")}
-    loader = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True, lstrip_blocks=True
-    )
+    sheets = {}
+    for table in ("run here", "self-declared"):
+        own, file_name = [row for row in rows if row.table == table], table.replace(" ", "-")
+        place, names = out / "sheets" / file_name, dict.fromkeys(row.problem for row in own)
+        sheets[table] = [_sheet(own, name, solvers, place) for name in names]
+        for mesh, given in (("", False), ("-given", True)):
+            shown = [row for row in own if (row.resolution == GIVEN) == given]
+            write_atomically(out / f"errors-{file_name}{mesh}.md", errors_table(shown, solvers))
+    templates = jinja2.FileSystemLoader(TEMPLATES)
+    loader = jinja2.Environment(loader=templates, autoescape=True, trim_blocks=True, lstrip_blocks=True)
     html = loader.get_template("benchmark.html.j2").render(
-        tables={
-            table: [
-                _sheet(own, name, solvers, out / "sheets" / _file_name(table))
-                for name in dict.fromkeys(row.problem for row in own)
-            ]
-            for table, own in tables.items()
-        },
+        tables=sheets,
         seed=about["seed"],
         solvers=about["solvers"],
         versions={row.solver: version for row in rows if (version := row.score.metadata.get("version"))},
@@ -166,19 +158,8 @@ def write_page(
         minutes=about["seconds"] / 60.0,
     )
     write_atomically(out / "benchmark.json", json.dumps(about, indent=1, allow_nan=False))
-    for name, own in tables.items():
-        for mesh, given in (("", False), ("-given", True)):
-            shown = [row for row in own if (row.resolution == GIVEN) == given]
-            write_atomically(out / f"errors-{_file_name(name)}{mesh}.md", errors_table(shown, solvers))
     write_atomically(out / "index.html", html)
     return out / "index.html"
-
-
-def _file_name(table: str) -> str:
-    return table.replace(" ", "-")
-
-
-# --- property × code -----------------------------------------------------------------------------------------------
 
 
 class Property(NamedTuple):
@@ -193,7 +174,10 @@ class Property(NamedTuple):
     def counts(self, row: Row) -> bool:
         """Whether a row is one of these."""
         asked = problem(row.problem)
-        fits = asked.kind in self.kinds and self.regime in ("", _regime(asked))
+        alpha, psi, _, axial = asked.loads
+        pushed = "lift-off" if alpha + psi < 0.0 else "pressed"
+        regime = pushed if not axial else "tension" if axial > 0.0 else "compression"
+        fits = asked.kind in self.kinds and self.regime in ("", regime)
         return fits and row.resolution in (RESOLUTIONS[-1:] if self.finest else (*RESOLUTIONS, GIVEN))
 
 
@@ -210,7 +194,6 @@ PROPERTIES = {
 
 
 def properties(rows: Sequence[Row], solver: str) -> dict[str, str]:
-    """One code's column of the table."""
     own = [row for row in rows if row.solver == solver]
     return {"converges": _converges(own), **{name: _largest(own, rule) for name, rule in PROPERTIES.items()}}
 
@@ -239,11 +222,9 @@ def _converges(rows: Sequence[Row]) -> str:
     return f"{sum(converged)} of {len(converged)} problems" if converged else "no result"
 
 
-# --- work and precision --------------------------------------------------------------------------------------------
-
-
-def _figure(rows: Sequence[Row], measure: str, solvers: Sequence[str]) -> Figure:
-    """Of one number. A faint line above a point ends at the error plus the error bar."""
+def _figure(rows: Sequence[Row], measure: str, solvers: Sequence[str]) -> str:
+    """Of one number, as an SVG element, the same bits for the same numbers. A faint line above a point ends at the
+    error plus the error bar."""
     figure = Figure(figsize=(5.2, 4.3), layout="constrained")
     axis = figure.subplots()
     styles = {name: k for k, name in enumerate([*shipped_adapters(), *sorted(set(solvers) - set(shipped_adapters()))])}
@@ -257,22 +238,23 @@ def _figure(rows: Sequence[Row], measure: str, solvers: Sequence[str]) -> Figure
             axis.vlines(seconds, errors, tops, color=color, lw=0.8, alpha=0.35)
             mark = MARKS[k % len(MARKS)]
             axis.loglog(seconds, errors, marker=mark, ms=5, lw=1.2, color=color, ls=style, label=solver)
-            for word, over in (("lifted", {"marker": mark, "mfc": "white"}), ("adhesive", {"marker": "x"})):
+            open_ = {"marker": mark, "mfc": "white", "color": color}
+            for word, over in (("lifted", open_), ("adhesive", {"marker": "x", "color": "k"})):
                 marked = [p[:2] for row in own if word in row.score.outcome and (p := _point(row, measure))]
-                axis.loglog(
-                    *np.array(marked).reshape(-1, 2).T, ls="", ms=5, color=color if over.get("mfc") else "k", **over
-                )
+                axis.loglog(*np.array(marked).reshape(-1, 2).T, ls="", ms=5, **over)
     for (low, high), bound in ((axis.get_ylim(), axis.set_ylim), (axis.get_xlim(), axis.set_xlim)):
         bound(10.0 ** np.floor(np.log10(low)), 10.0 ** np.ceil(np.log10(high)))
     axis.xaxis.set_minor_formatter("")
-    axis.set(
-        xlabel="seconds of the time loop (of the process where not reported)",
-        ylabel=f"relative error of {MEASURES[measure]}",
-    )
+    axis.set_xlabel("seconds of the time loop (of the process where not reported)")
+    axis.set_ylabel(f"relative error of {MEASURES[measure]}")
     axis.grid(True, which="major", lw=0.4, color="0.85")
     axis.spines[["top", "right"]].set_visible(False)
     figure.legend(loc="outside lower center", ncols=3, frameon=False, fontsize=8)
-    return figure
+    stream = io.StringIO()
+    with matplotlib.rc_context({"svg.hashsalt": "beam-impact", "svg.fonttype": "path"}):
+        figure.savefig(stream, format="svg", metadata={"Date": None})
+    text = stream.getvalue()
+    return text[text.index("<svg") :]
 
 
 def _point(row: Row, measure: str) -> tuple[float, float, float] | None:
@@ -282,12 +264,3 @@ def _point(row: Row, measure: str) -> tuple[float, float, float] | None:
         return None
     error = max(abs(found.relative() or 0.0), SMALLEST)
     return seconds, error, error + (found.relative_bar() or 0.0)
-
-
-def _svg(figure: Figure) -> str:
-    """The figure as an SVG element, the same bits for the same numbers."""
-    stream = io.StringIO()
-    with matplotlib.rc_context({"svg.hashsalt": "beam-impact", "svg.fonttype": "path"}):
-        figure.savefig(stream, format="svg", metadata={"Date": None})
-    text = stream.getvalue()
-    return text[text.index("<svg") :]

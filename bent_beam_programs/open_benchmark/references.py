@@ -79,5 +79,4 @@ def _bounce(asked: Problem) -> Reference:
 def _restitution(asked: Problem) -> tuple[float | None, float | None]:
     from bent_beam_programs.open_benchmark.exact import whole_impact
 
-    value, error = whole_impact(asked)["restitution"] if asked.damping > 0.0 else (None, None)
-    return value, error
+    return tuple(whole_impact(asked)["restitution"]) if asked.damping > 0.0 else (None, None)

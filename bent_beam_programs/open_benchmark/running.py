@@ -70,8 +70,7 @@ def run_adapter(adapter: Adapter, asked: Problem, resolution: str, kept: Path, l
 def _once(adapter: Adapter, asked: Problem, resolution: str, kept: Path, limits: Limits) -> Run:
     for old in (kept, kept.with_suffix(".csv"), kept.with_suffix(".json")):
         old.unlink(missing_ok=True)
-    missing = adapter.missing()
-    if missing:
+    if missing := adapter.missing():
         return Run("not_installed", missing, 0.0)
     kept.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(prefix=".run-", dir=kept.parent, ignore_cleanup_errors=True) as place:

@@ -30,12 +30,8 @@ def score(result: Result, base: Result | None = None) -> Score:
     Raises :class:`ResultError` when ``base`` does not belong to the result's problem.
     """
     asked = result.problem
-    found = Score(
-        asked.id,
-        result.stated,
-        metadata=result.metadata,
-        raw=result.node_impulse is not None and result.snap_gap is not None,
-    )
+    raw = result.node_impulse is not None and result.snap_gap is not None
+    found = Score(asked.id, result.stated, metadata=result.metadata, raw=raw)
     if result.outcome != "completed":
         return replace(found, reason=result.detail or result.outcome)
     if not asked.is_front:
@@ -55,9 +51,6 @@ def score(result: Result, base: Result | None = None) -> Score:
     return _judged(replace(found, measured=measured), result)
 
 
-# --- λ₀, r₀, λ₁, r₁ ------------------------------------------------------------------------------------------------
-
-
 def _estimates(result: Result, base: Result | None) -> dict[str, Number]:
     """λ₀ and r₀ of the base or of the result itself, λ₁ and r₁ where there is a base. A number that neither exceeds its
     bar nor is held against a larger one is none."""
@@ -70,13 +63,12 @@ def _estimates(result: Result, base: Result | None) -> dict[str, Number]:
         loaded = _moments(result, load=asked.uniform_load, lambda0=leading.lambda0.known)
         change = first_order([(asked.epsilon, loaded)], _moments(_sampled(base, result.tau)), leading)
         estimates |= {"lambda1": change.lambda1, "r1": change.r1}
-    exact = reference(asked)
-    return {name: _number(number, exact[name]) for name, number in estimates.items()}
-
-
-def _number(found: Number, exact: float | None) -> Number:
-    known = found.spread <= max(abs(found.value or 0.0), abs(exact or 0.0)) or not exact
-    return Number(found.value if known else None, abs(found.bar or 0.0) if known else None, exact)
+    answer, found = reference(asked), {}
+    for name, number in estimates.items():
+        exact = answer[name]
+        known = number.spread <= max(abs(number.value or 0.0), abs(exact or 0.0)) or not exact
+        found[name] = Number(number.value, abs(number.bar or 0.0), exact) if known else Number(theory=exact)
+    return found
 
 
 def _sampled(base: Result, tau: Array) -> Result:
@@ -102,9 +94,6 @@ def _moments(result: Result, *, load: float = 0.0, lambda0: float = 0.0, sign: f
         front=lambda0 * np.sqrt(tau),
         lift=zero,
     )
-
-
-# --- measures without a front ----------------------------------------------------------------------------------------
 
 
 def _ladder(result: Result) -> dict[str, Any]:
@@ -142,9 +131,6 @@ def _largest_force(result: Result) -> tuple[float, float]:
     return float(np.polyval(fit, top)), float(when[k]) + top
 
 
-# --- the judge -----------------------------------------------------------------------------------------------------
-
-
 def _judged(found: Score, result: Result) -> Score:
     """What is seen, the judge's additions to the outcome, and the verdict."""
     front = found.measured.get("lambda0", Number()).value or 0.0 if result.problem.kind == "leading" else 0.0
@@ -178,8 +164,7 @@ def _of_numbers(found: Score) -> list[Symptom]:
     return shown
 
 
-# --- causes: named only where the first symptom has one cause alone -------------------------------------------------
-#
+# Causes are named only where the first symptom has one cause alone.
 # A wall on springs pushes where it is penetrated, and by as much. A thin first front throws the zone off the wall as a
 # whole. Sums are wrong where momentum alone is violated. Everything else has several causes, and none is named.
 
@@ -242,8 +227,6 @@ def _causes(result: Result, found: Score) -> tuple[Finding, ...]:
     compared = any(number.difference is not None for number in found.measured.values())
     return (Finding("clean"),) if compared and not found.symptoms else ()
 
-
-# --- several resolutions of one code ---------------------------------------------------------------------------------
 
 SAME = 1e-6  # of numbers: no two meshes agree so well
 

@@ -28,14 +28,9 @@ def run(contact: str, mass: str, curvature: float = FLAT, duration: float = 0.1)
     return thesis(f"{NAMES[contact]}, {mass}", curvature, duration, contact=contact, mass=MASSES[mass])
 
 
-def four() -> list[Outcome]:
-    """Nodes and middles, both masses."""
-    return [run(contact, mass) for mass, contact in PAIRS]
-
-
 def compare(sheet: Sheet, *shown: panels.Panel) -> None:
     """Panels of the four and of the references in a row, one legend, their numbers beside them."""
-    own = four()
+    own = [run(contact, mass) for mass, contact in PAIRS]
     outcomes = own + reference_runs(FLAT, 0.1)
     count, width = len(shown), style.PAGE if len(shown) > 1 else 4.6
     with sheet.figure(1, count, width=width, height=3.0, legend=2 + count, legend_size=7.0) as (_, axes):
@@ -119,7 +114,7 @@ def strains(sheet: Sheet) -> None:
     {shown}. The thesis has 3.8 J with nodes and 38 J with middles. Nodes tell the masses apart, middles do not. Theory
     has a quarter of the energy V₀∫R dt, most of it in waves that elements longer than the front is thick cannot carry.
     """
-    found = four()
+    found = [run(contact, mass) for mass, contact in PAIRS]
     with sheet.figure(1, 2, height=2.8, legend=3, legend_size=7.0) as (_, axes):
         panels.strain(sheet, axes[0], found, theory=None)
         panels.strain(sheet, axes[1], found)

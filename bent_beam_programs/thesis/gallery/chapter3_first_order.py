@@ -102,14 +102,6 @@ def shapes(sheet: Sheet) -> None:
         sheet.numbers[f"lift (mm), {SIGNS[700.0]}, h = 2.5·10⁻⁷ s, fine to {zone:g} m"] = lift
 
 
-def evolution(sheet: Sheet, axis: Axes, acceleration: float) -> None:
-    history = own(acceleration).history
-    times = float(history.time[-1]) * np.array([0.25, 0.5, 0.75, 1.0])
-    beam_at_times(sheet, axis, history, times, EDGE, lambda t: f"t = {1e3 * t:.2g} ms")
-    style.wall_below(axis, -8.0, 1.0)
-    axis.legend(fontsize=6.5, loc="upper left" if acceleration > 0.0 else "upper right")
-
-
 def leading(sheet: Sheet, axis: Axes, what: str, end: float) -> None:
     """Theory of leading order (a method of :class:`Exact`) in the units of the panel, ms and mm, N or kN."""
     t = end * np.linspace(0.0, 1.0, 301)[1:] ** 2
@@ -134,7 +126,11 @@ def all_of_it(sheet: Sheet) -> None:
             name = SIGNS[acceleration]
             plain = replace(own(0.0), label=f"{study.OLD}, {SIGNS[0.0]}")
             runs = [own(acceleration), plain, *ours(acceleration)]
-            evolution(sheet, axes[0, column], acceleration)
+            history, above = runs[0].history, axes[0, column]
+            times = float(history.time[-1]) * np.array([0.25, 0.5, 0.75, 1.0])
+            beam_at_times(sheet, above, history, times, EDGE, lambda t: f"t = {1e3 * t:.2g} ms")
+            style.wall_below(above, -8.0, 1.0)
+            above.legend(fontsize=6.5, loc="upper left" if acceleration > 0.0 else "upper right")
             contact_length(sheet, axes[1, column], runs)
             banded(sheet, axes[2, column], runs)
             for axis in axes[1:, column]:

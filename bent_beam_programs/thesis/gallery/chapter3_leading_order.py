@@ -213,7 +213,15 @@ def discrete(sheet: Sheet) -> None:
         geometry(sheet, axes[0, 0], nodes, (0.0, END), (-340, 30))
         geometry(sheet, axes[0, 1], middles, (0.0, 0.5 * MIDDLE, MIDDLE, LATE), (-60, 18))
         axes[0, 1].set_xlim(0, 0.11)
-        energies(sheet, axes[1, 0])
+        axis = axes[1, 0]
+        axis.set(xlabel="$t$  (µs)", ylabel="$E - E(0)$  (J)", xlim=(-2.0, 1e6 * END))
+        for (name, mass), colour in zip(MASSES.items(), ("vermilion", "sky")):
+            history = run("node", ELEMENT, 50.0, END, STEP, mass)
+            change, shade = np.append([0.0], energy_change(history)), style.COLOURS[colour]
+            times = np.append([-2e-6], history.time)  # free flight before
+            sheet.line(axis, 1e6 * times, change, series=f"nodes, {name}", color=shade)
+        sheet.line(axis, [0.0, 1e6 * END], [0.0, 0.0], series="theory", **style.THEORY)
+        axis.legend(fontsize=7, loc="center right", bbox_to_anchor=(1.0, 0.75))
         impulses(sheet, axes[1, 1])
     closed = int(np.argmax(middles.array("total_impulse") > 0.0))
     sheet.numbers["middles close at (s)"] = float(middles.time[closed])
@@ -223,18 +231,6 @@ def discrete(sheet: Sheet) -> None:
     sheet.numbers["first impact, lumped, h = 10⁻¹⁰ s (N s)"] = first_impact(ELEMENT, THESIS_MASS, 1e-10)[0]
     for element in FINE:
         sheet.numbers[f"first step, Δx = {readable(element)} m (N s)"] = first_impact(element, THESIS_MASS)[0]
-
-
-def energies(sheet: Sheet, axis: Axes) -> None:
-    """Energy over time with both masses, contact at nodes."""
-    axis.set(xlabel="$t$  (µs)", ylabel="$E - E(0)$  (J)", xlim=(-2.0, 1e6 * END))
-    for (name, mass), colour in zip(MASSES.items(), ("vermilion", "sky")):
-        history = run("node", ELEMENT, 50.0, END, STEP, mass)
-        change, shade = energy_change(history), style.COLOURS[colour]
-        times, change = np.append([-2e-6], history.time), np.append([0.0], change)  # free flight before
-        sheet.line(axis, 1e6 * times, change, series=f"nodes, {name}", color=shade)
-    sheet.line(axis, [0.0, 1e6 * END], [0.0, 0.0], series="theory", **style.THEORY)
-    axis.legend(fontsize=7, loc="center right", bbox_to_anchor=(1.0, 0.75))
 
 
 def impulses(sheet: Sheet, axis: Axes) -> None:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -55,7 +56,6 @@ class MethodOnCase:
         return Variant(self.method.label, method=method, value=value, setting=name, **about)
 
     def has(self, name: str) -> bool:
-        """Whether the method has a part of this name."""
         return name in getattr(self.method, "PARTS", {})
 
     def kinds(self, name: str) -> Mapping[str, type]:
@@ -84,7 +84,6 @@ class MethodOnCase:
             return chosen
 
     def with_parts(self, **parts: Any) -> Method:
-        """A copy of the method with other parts."""
         changed: Method = dataclasses.replace(self.method, **parts)
         return changed
 
@@ -137,23 +136,23 @@ def runs_of_methods(
 
     A method that the study cannot use, and one that refuses the case, are rows with the reason.
     """
-    return [one for method in methods for factor in refines for one in _runs(vary, case, method, factor)]
-
-
-def _runs(vary: Vary, case: Case, method: Method, factor: float) -> list[Variant | Outcome]:
-    try:
-        finer = refined(method, factor)
-        if finer is None:
-            reason = f"refine: {method.path} does not know how to be refined (got {factor:g})"
-        elif not (reason := finer.refuses(case.impact) or ""):
-            found = vary(MethodOnCase(finer, case))
-            return [dataclasses.replace(run, label=method.label, refine=factor) for run in found]
-    except NotVaried as error:
-        reason = f"not varied: {error}"
-    except ANY_FAILURE as error:
-        reason = str(error)
-    asked = Variant(method.label, case.impact, case.end_time, method, refine=factor)
-    return [asked.lost(reason, refused=True)]
+    rows: list[Variant | Outcome] = []
+    for method, factor in product(methods, refines):
+        try:
+            finer = refined(method, factor)
+            if finer is None:
+                reason = f"refine: {method.path} does not know how to be refined (got {factor:g})"
+            elif not (reason := finer.refuses(case.impact) or ""):
+                found = vary(MethodOnCase(finer, case))
+                rows += [dataclasses.replace(run, label=method.label, refine=factor) for run in found]
+                continue
+        except NotVaried as error:
+            reason = f"not varied: {error}"
+        except ANY_FAILURE as error:
+            reason = str(error)
+        asked = Variant(method.label, case.impact, case.end_time, method, refine=factor)
+        rows.append(asked.lost(reason, refused=True))
+    return rows
 
 
 def draw_methods(sheet: Sheet, heading: str, outcomes: Sequence[Outcome]) -> None:

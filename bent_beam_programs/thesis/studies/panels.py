@@ -146,7 +146,6 @@ def _front(o: Outcome, line: dict[str, Any]) -> tuple[Array, Array]:
 
 
 contact_length: Panel = partial(_over_time, label=r"$\lambda_c$", name="m", curve=_front, theory=Exact.front)
-"""λ_c over t."""
 
 reaction: Panel = partial(
     _over_time, label="reaction of one side", name="N", theory=Exact.side_reaction,
@@ -201,14 +200,12 @@ length_off: Panel = partial(
     _over_time, label=r"$\lambda_c$ $-$ theory", name="m", **_NOTHING,
     curve=lambda o, line: (_front(o, line)[0], _front(o, line)[1] - o.exact.front(_front(o, line)[0])),
 )  # fmt: skip
-"""λ_c less theory's."""
 
 impulse_off: Panel = partial(
     _over_time, label="impulse $-$ theory", name="N s", root=True, **_NOTHING,
     curve=lambda o, line: (o.time, o.side_impulse - o.side_impulse[0] - 0.5 * (
         o.exact.impulse(np.maximum(o.time, 0.0)) - o.exact.impulse(max(float(o.time[0]), 0.0)))),
 )  # fmt: skip
-"""Impulse of one side less theory's."""
 
 
 def less(base: str, what: str, label: str, name: str) -> Panel:
