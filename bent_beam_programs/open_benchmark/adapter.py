@@ -36,6 +36,8 @@ SHIPPED |= {"chosen": "uniform, the same in every problem"}  # where a table say
 WINDOWS = os.name == "nt"
 SYSTEM_PYTHON = "/usr/bin/python3"
 INSTALL_SECONDS = 900.0
+CODE = (".py", ".so", ".pyd")
+_distributions = cache(packages_distributions)  # to ask takes a second where many are installed
 
 
 @dataclass(frozen=True)
@@ -172,10 +174,6 @@ def install(adapter: Adapter) -> str:
     return f"{name}: {', '.join(adapter.install)} in {folder}"
 
 
-CODE = (".py", ".so", ".pyd")
-_distributions = cache(packages_distributions)  # to ask takes a second where many are installed
-
-
 def behind(files: Iterable[Path], folder: Path) -> list[str]:
     """What Python ``files`` import, and what that imports in turn: the digest of each module or package in ``folder``
     or elsewhere on the path, of an installed one its version. What is imported by a computed name is not seen."""
@@ -203,13 +201,9 @@ def behind(files: Iterable[Path], folder: Path) -> list[str]:
 def _imported_by(file: Path) -> set[str]:
     """Top-level names of the modules that a file imports."""
     try:
-        tree = ast.walk(ast.parse(file.read_bytes())) if file.suffix == ".py" else ()
+        nodes = list(ast.walk(ast.parse(file.read_bytes()))) if file.suffix == ".py" else []
     except (SyntaxError, ValueError):
         return set()
-    names: list[str] = []
-    for node in tree:
-        if isinstance(node, ast.Import):
-            names += [one.name for one in node.names]
-        elif isinstance(node, ast.ImportFrom) and not node.level:
-            names.append(str(node.module))
+    names = [one.name for node in nodes if isinstance(node, ast.Import) for one in node.names]
+    names += [str(node.module) for node in nodes if isinstance(node, ast.ImportFrom) and not node.level]
     return {name.partition(".")[0] for name in names}

@@ -129,8 +129,8 @@ def campaign(
         for row, found in zip(own, resolution_ignored([row.score for row in own])):
             row = replace(row, score=found)
             if row.declared_because == NO_HISTORIES:  # two sums can be right by a table of answers: they are not clean
-                kept = tuple(finding for finding in found.diagnosis if finding.name != "clean")
-                row = replace(row, score=replace(found, diagnosis=kept))
+                others = tuple(finding for finding in found.diagnosis if finding.name != "clean")
+                row = replace(row, score=replace(found, diagnosis=others))
             rows.append(row)
     return rows
 

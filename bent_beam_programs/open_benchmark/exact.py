@@ -34,24 +34,19 @@ def computed(asked: Problem) -> dict[str, Any]:
         names = ("lambda0", "r0", "lambda1", "r1") if asked.kind == "first" else ("lambda0", "r0")
         return {"values": {name: float(getattr(found, name)) for name in names}}
     if asked.kind.startswith("elastic"):
-        return _largest_force(asked)
+        if asked.kind == "elastic-wall":  # by a Volterra equation
+            peak = peak_force(asked.kappa_over_nu, asked.given["wall_damping"] / 2.0)
+            values, errors = (peak.value, peak.time), (peak.error, PEAK_TIME * peak.time)
+        else:  # by modes: the bar is what half of them change
+            values, few = (SwungBeam(**asked.given, modes=n).peak_force(asked.end_time) for n in (MODES, MODES // 2))
+            errors = abs(values[0] - few[0]), abs(values[1] - few[1])
+        names = ("peak_force", "peak_time")
+        return {"values": dict(zip(names, values)), "errors": dict(zip(names, errors))}
     if asked.kind == "stopped-beam":
         roots = np.linspace(0.0, asked.end_time**0.25, KNOTS)
         impulse = np.concatenate([[0.0], StoppedBeam(asked.damping).impulse(roots[1:] ** 4)])
         return {"impulse": _pieces("fourth root of time", roots, CubicSpline(roots, impulse).c.T)}
     return {"impulse": _rung(asked)}
-
-
-def _largest_force(asked: Problem) -> dict[str, Any]:
-    """Of a wall that gives way, by a Volterra equation; of a stop, by modes: the bar is what half of them change."""
-    if asked.kind == "elastic-wall":
-        peak = peak_force(asked.kappa_over_nu, asked.given["wall_damping"] / 2.0)
-        values, errors = (peak.value, peak.time), (peak.error, PEAK_TIME * peak.time)
-    else:
-        values, few = (SwungBeam(**asked.given, modes=n).peak_force(asked.end_time) for n in (MODES, MODES // 2))
-        errors = abs(values[0] - few[0]), abs(values[1] - few[1])
-    names = ("peak_force", "peak_time")
-    return {"values": dict(zip(names, values)), "errors": dict(zip(names, errors))}
 
 
 def _rung(asked: Problem) -> dict[str, Any]:
@@ -94,7 +89,7 @@ def whole_impact(asked: Problem, elements: int = SAMPLE) -> dict[str, Any]:
 
     method = HermiteFE(mesh=UniformMesh(element_length=1.0 / elements))
     found = bounce(beam(asked.kappa_over_nu, asked.damping), method)
-    about = {"kappa_over_nu": asked.kappa_over_nu, "damping": asked.damping}
+    about: dict[str, Any] = {"kappa_over_nu": asked.kappa_over_nu, "damping": asked.damping}
     about |= {name: [found.numbers[name].value, found.numbers[name].bar] for name in NUMBERS}
     about |= {"error_parts": dict(getattr(found.numbers["restitution"], "parts", {})), "settings": found.settings}
     return about | {"steps": found.runs.run.steps, "seconds": found.seconds}

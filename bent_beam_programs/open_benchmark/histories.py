@@ -26,12 +26,10 @@ def result_from_history(history: ImpactHistory, asked: Problem | None = None) ->
     asked : the problem that it answers; ``None`` reads it off the history's impact.
     Raises :class:`ResultError` for an impact that is none of the infinite beam's: no exact solution knows of it.
     """
-    impact = history.impact
-    asked = asked or _problem_of(history)
+    impact, asked = history.impact, asked or _problem_of(history)
     length, time = impact.length_scale, impact.time_scale
     impulse = impact.mass_per_length * impact.velocity * length
-    energy = impulse * impact.velocity
-    tau = history.time / time
+    energy, tau = impulse * impact.velocity, history.time / time
     series = {"J_minus": _tensile_impulse(history) / impulse}
     if "position" not in history:  # a mesh that expands takes in energy with the beam that it takes in
         sources = {"E_kin": "kinetic_energy", "E_el": "strain_energy"}

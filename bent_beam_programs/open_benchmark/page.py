@@ -33,7 +33,6 @@ SMALLEST = 1e-7  # relative error that a figure still shows
 TEMPLATES = Path(__file__).parent / "templates"
 IN_SHORT = ("lambda0", "r0", "restitution", "impulse_error", "peak_force", "peak_time")  # errors where no loads act
 CONVERGED = 0.002  # relative error on the finest mesh that a converging code reaches (strict codes do)
-
 WORDS = {
     "leading": "infinite beam: the contact spreads",
     "point": "infinite beam: one point in contact",

@@ -26,7 +26,6 @@ BOUNCES = Path(__file__).with_name("bounce_reference.json")
 REFERENCES = Path(__file__).with_name("references.json")
 SCHEMA = "beam-impact-references/2"
 POWERS = {"time": 1.0, "fourth root of time": 0.25}  # of the variable that J(t) is a piecewise polynomial of
-
 stored = cache(read)
 Array = NDArray[np.float64]
 

@@ -24,7 +24,6 @@ from bent_beam_programs.open_benchmark.problem import Problem, problem
 __all__ = ["OUTCOMES", "Result", "ResultError", "result_from_fields"]
 
 Array = NDArray[np.float64]
-
 OUTCOMES = (
     "completed", "diverged", "not_converged", "unsupported", "not_attempted", "timeout", "crashed", "not_installed",
 )  # fmt: skip

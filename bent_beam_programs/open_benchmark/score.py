@@ -22,6 +22,7 @@ from bent_beam_programs.open_benchmark.result import Array, Result, ResultError
 from bent_beam_programs.open_benchmark.symptoms import last_push, readings
 
 __all__ = ["resolution_ignored", "score"]
+SAME = 1e-6  # of numbers: no two meshes agree so well
 
 
 def score(result: Result, base: Result | None = None) -> Score:
@@ -132,7 +133,8 @@ def _largest_force(result: Result) -> tuple[float, float]:
 
 
 def _judged(found: Score, result: Result) -> Score:
-    """What is seen, the judge's additions to the outcome, and the verdict."""
+    """What is seen, the judge's additions to the outcome, and the verdict: the cause that the first symptom has alone,
+    else whether a number is off, or that the result is clean."""
     front = found.measured.get("lambda0", Number()).value or 0.0 if result.problem.kind == "leading" else 0.0
     seen, missing = readings(result, front)
     shown = [one for one in seen.values() if one.seen]
@@ -148,7 +150,13 @@ def _judged(found: Score, result: Result) -> Score:
         additions.append("no number" if widest is None else f"within its bar of {100.0 * widest:.2g} %")
     reason = "; ".join(map(str, found.symptoms)) or None
     found = replace(found, outcome=", ".join([found.outcome, *additions]), reason=reason)
-    return replace(found, diagnosis=_causes(result, found))
+    compared = any(number.difference is not None for number in found.measured.values())
+    diagnosis = (Finding("clean"),) if compared and not found.symptoms else ()
+    if found.symptoms and (known := CAUSES.get(found.symptoms[0].name)) and known[1](result, found):
+        diagnosis = (Finding(known[0], str(found.symptoms[0]), known[2]),)
+    elif found.off:
+        diagnosis = (Finding("off", found.reason or "", "the problem's numbers, then mesh and steps"),)
+    return replace(found, diagnosis=diagnosis)
 
 
 def _of_numbers(found: Score) -> list[Symptom]:
@@ -216,19 +224,6 @@ CAUSES: dict[str, tuple[str, Callable[[Result, Score], bool], str]] = {
     "penetration": ("soft_penalty", _on_springs, "a stiffer contact: as stiff as an element's bending, 12 EI/Δx³"),
     "lift": ("start_unresolved", _thrown_off, "smaller elements at the first touch, or closed points held at first"),
 }
-
-
-def _causes(result: Result, found: Score) -> tuple[Finding, ...]:
-    """The cause that the first symptom has alone, else whether a number is off, or that the result is clean."""
-    if found.symptoms and (known := CAUSES.get(found.symptoms[0].name)) and known[1](result, found):
-        return (Finding(known[0], str(found.symptoms[0]), known[2]),)
-    if found.off:
-        return (Finding("off", found.reason or "", "the problem's numbers, then mesh and steps"),)
-    compared = any(number.difference is not None for number in found.measured.values())
-    return (Finding("clean"),) if compared and not found.symptoms else ()
-
-
-SAME = 1e-6  # of numbers: no two meshes agree so well
 
 
 def resolution_ignored(scores: Sequence[Score]) -> list[Score]:

@@ -23,7 +23,6 @@ NODES, GAPS = "node_x and node_impulse", "x, snap_tau and snap_gap"
 AHEAD = 5.0  # √τ short of the far end, or 3 ahead of the front: hardly a wave has come there
 STEEP = 0.5  # κ/ν, the least that an error of curvature is held against: waves ahead hide a smaller one
 OWN = 0.5  # the share of J beyond which a fall is no pull
-
 Seen = tuple[float, str] | tuple[float, str, float] | None  # figure, where, and a limit of its own
 
 

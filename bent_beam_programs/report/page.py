@@ -133,6 +133,8 @@ def render(content: Content) -> str:
     environment.filters |= {"percent": percent, "picture": picture}
     leading, first = leading_rows(content.rows), first_order_rows(content.rows)
     methods, groups = labels(content.rows), grouped(content.impacts)
+    settings = {f"Method: {row.label}": row.settings for row in content.rows}
+    settings |= {f"Shown impact: {i.label}, {i.shown.title}": dict(i.settings) for i in content.impacts}
     return environment.get_template("report.html.j2").render(
         content=content,
         headline=headline(leading, first, len(failures(content.rows))),
@@ -150,7 +152,7 @@ def render(content: Content) -> str:
         pictures={file.stem: picture(file) for file in content.pictures},
         caption_of=lambda name, title: f"{name.replace('fig-', 'Fig. ').replace('extra-', 'Its ')}: {title}",
         facts=facts(content),
-        settings=settings(content),
+        settings={title: json.dumps(value, indent=1, ensure_ascii=False) for title, value in settings.items()},
         data={"energies": ENERGIES, "impacts": [impact_data(runs) for runs in groups.values()]},
         script=Markup((TEMPLATES / "report.js").read_text(encoding="utf-8")),
         style=Markup((TEMPLATES / "report.css").read_text(encoding="utf-8")),
@@ -189,10 +191,3 @@ def facts(content: Content) -> dict[str, str]:
         "Python": platform.python_version(),
         **versions(),
     }
-
-
-def settings(content: Content) -> dict[str, str]:
-    """Of the runs: title → JSON text."""
-    found: dict[str, Any] = {f"Method: {row.label}": row.settings for row in content.rows}
-    found |= {f"Shown impact: {i.label}, {i.shown.title}": dict(i.settings) for i in content.impacts}
-    return {title: json.dumps(value, indent=1, ensure_ascii=False) for title, value in found.items()}

@@ -64,14 +64,11 @@ def store_measurement(measurement: Measurement, *, jobs: int = 1) -> Path:
     asked = questions(methods, [KAPPA], measurement.firsts, measurement.refines)
     rows = match(asked, store=RunStore.usual(), jobs=jobs, limit=measurement.limit)
     draw_work_precision(rows, STORED)
-    return stored.write(
-        STORED / f"{measurement.name}.json",
-        f"work and precision: {measurement.title}",
-        f"python -m bent_beam_programs.report.work {measurement.name}",
-        PACKAGES,
-        {row.label: row.settings for row in rows},
-        {"command": measurement.command, "rows": [{name: row.to_dict()[name] for name in KEPT} for row in rows]},
-    )
+    file, what = STORED / f"{measurement.name}.json", f"work and precision: {measurement.title}"
+    made_by = f"python -m bent_beam_programs.report.work {measurement.name}"
+    settings = {row.label: row.settings for row in rows}
+    data = [{name: row.to_dict()[name] for name in KEPT} for row in rows]
+    return stored.write(file, what, made_by, PACKAGES, settings, {"command": measurement.command, "rows": data})
 
 
 def stored_measurements() -> list[dict[str, Any]]:

@@ -112,7 +112,6 @@ def draw_all(
 
 
 def _index(drawn: Sequence[dict[str, Any]]) -> str:
-    """The gallery as one Markdown page."""
     parts = ["# Figures and tables of the thesis, regenerated\n"]
     for entry in drawn:
         picture, data = Path(entry["files"][0]).name, Path(entry["files"][-1]).name

@@ -30,6 +30,10 @@ CASE = (
     "V₀ = 3.5 m/s, K = 0.35 1/m, L = 2 m, Δx = 2.5·10⁻³ m, e = 1.25, ρ∞ = 0.8, nodes, lumped mass (r = 1/105), "
     "h = 2.5·10⁻⁸ s"
 )
+MAP = (
+    f"{CASE}; cells even in x and √t, the axis of t scaled alike, so that the front is straight; theory's ±λ_c(t) "
+    "(red line)"
+)
 SIGNS = {-700.0: "a₀ = −700 m/s²", 0.0: "a₀ = 0", 700.0: "a₀ = 700 m/s²"}
 EDGE = 0.45  # m, of the figures
 
@@ -144,12 +148,6 @@ def all_of_it(sheet: Sheet) -> None:
 
 def one_map(sheet: Sheet, acceleration: float) -> None:
     draw_maps(sheet, {study.OLD: own(acceleration).history, study.FINITE: resolved(acceleration)}, 1, 3.0)
-
-
-MAP = (
-    f"{CASE}; cells even in x and √t, the axis of t scaled alike, so that the front is straight; theory's ±λ_c(t) "
-    "(red line)"
-)
 
 
 @item("fig-3.35", map=MAP)

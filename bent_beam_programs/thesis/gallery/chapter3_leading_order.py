@@ -32,6 +32,11 @@ from theory import contact_parameters
 
 NAMES = ("1/80", "1/40", "1/20", "1/10", "1/5", "1/2", "1", "5", "10")
 CURVATURES = dict(zip(NAMES, (20.0 * k for k in THESIS_KAPPAS)))
+CURVATURE, DURATION, ELEMENT = 25.0, 0.01, 5e-2
+STEP, END = 2.5e-8, 2.5e-5  # s
+LATE = 1.6e-3  # s, end of the run with middles
+MIDDLE = CURVATURE * ELEMENT**2 / 8.0 / 20.0  # s, until the middle of an element reaches the wall
+FINE = (5e-2, 1e-2, 2.5e-3, 5e-4)
 
 
 def element_length(curvature: float) -> float:
@@ -151,13 +156,6 @@ items(__name__, compare, (
 ))  # fmt: skip
 
 
-CURVATURE, DURATION, ELEMENT = 25.0, 0.01, 5e-2
-STEP, END = 2.5e-8, 2.5e-5  # s
-LATE = 1.6e-3  # s, end of the run with middles
-MIDDLE = CURVATURE * ELEMENT**2 / 8.0 / 20.0  # s, until the middle of an element reaches the wall
-FINE = (5e-2, 1e-2, 2.5e-3, 5e-4)
-
-
 @functools.cache
 def run(contact: str, element: float, length: float, end: float, step: float, mass: Mass = CONSISTENT) -> ImpactHistory:
     """A run on a uniform mesh, the thesis's other settings, its first steps saved one by one."""
@@ -222,7 +220,19 @@ def discrete(sheet: Sheet) -> None:
             sheet.line(axis, 1e6 * times, change, series=f"nodes, {name}", color=shade)
         sheet.line(axis, [0.0, 1e6 * END], [0.0, 0.0], series="theory", **style.THEORY)
         axis.legend(fontsize=7, loc="center right", bbox_to_anchor=(1.0, 0.75))
-        impulses(sheet, axes[1, 1])
+        axis = axes[1, 1]
+        for element, colour in zip(FINE, style.SEQUENCE):
+            history = run("node", element, 1.0, END, STEP, THESIS_MASS)
+            edges = np.concatenate([history.time[:11], np.linspace(history.time[10], END, 41)[1:]])
+            total = np.interp(edges, history.time, history.array("total_impulse"))
+            force, middle = np.diff(total) / np.diff(edges), 0.5 * (edges[1:] + edges[:-1])
+            sheet.line(axis, 1e6 * middle, 1e-3 * force, series=f"Δx = {readable(element)} m", color=colour, lw=0.9)
+        t = np.geomspace(0.5 * STEP, END, 200)
+        exact = Exact(case(CURVATURE, DURATION).impact)
+        sheet.line(axis, 1e6 * t, 2e-3 * exact.side_reaction(t), series="theory", **style.THEORY)
+        axis.set(xlabel="$t$  (µs)", ylabel="reaction $R$  (kN)", xscale="log", yscale="log")
+        axis.set(xlim=(1e-2, 25), ylim=(1.0, 1e6))
+        axis.legend(fontsize=6.5, loc="upper right", ncols=2)
     closed = int(np.argmax(middles.array("total_impulse") > 0.0))
     sheet.numbers["middles close at (s)"] = float(middles.time[closed])
     for name, mass in MASSES.items():
@@ -231,20 +241,3 @@ def discrete(sheet: Sheet) -> None:
     sheet.numbers["first impact, lumped, h = 10⁻¹⁰ s (N s)"] = first_impact(ELEMENT, THESIS_MASS, 1e-10)[0]
     for element in FINE:
         sheet.numbers[f"first step, Δx = {readable(element)} m (N s)"] = first_impact(element, THESIS_MASS)[0]
-
-
-def impulses(sheet: Sheet, axis: Axes) -> None:
-    """R(t) of the whole beam for several element lengths."""
-    for element, colour in zip(FINE, style.SEQUENCE):
-        history = run("node", element, 1.0, END, STEP, THESIS_MASS)
-        time = history.time
-        edges = np.concatenate([time[:11], np.linspace(time[10], END, 41)[1:]])
-        force = np.diff(np.interp(edges, time, history.array("total_impulse"))) / np.diff(edges)
-        middle = 0.5 * (edges[1:] + edges[:-1])
-        sheet.line(axis, 1e6 * middle, 1e-3 * force, series=f"Δx = {readable(element)} m", color=colour, lw=0.9)
-    t = np.geomspace(0.5 * STEP, END, 200)
-    exact = Exact(case(CURVATURE, DURATION).impact)
-    sheet.line(axis, 1e6 * t, 2e-3 * exact.side_reaction(t), series="theory", **style.THEORY)
-    axis.set(xlabel="$t$  (µs)", ylabel="reaction $R$  (kN)", xscale="log", yscale="log")
-    axis.set(xlim=(1e-2, 25), ylim=(1.0, 1e6))
-    axis.legend(fontsize=6.5, loc="upper right", ncols=2)

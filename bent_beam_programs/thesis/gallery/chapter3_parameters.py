@@ -170,9 +170,8 @@ items(__name__, drawing.run_figure, (
 
 def table_nodes(growth: float) -> np.ndarray:
     """Nodes of half the beam of Table 3.2, m."""
-    if growth == 1.0:
-        return np.linspace(0.0, 25.0, 10001)
-    return GradedMesh(2.5e-3, growth, size_ratio=1e6).nodes(25.0)
+    even = np.linspace(0.0, 25.0, 10001)
+    return even if growth == 1.0 else GradedMesh(2.5e-3, growth, size_ratio=1e6).nodes(25.0)
 
 
 def count_of(curvature: float, duration: float, *, square: bool = False) -> int:
@@ -224,7 +223,7 @@ def square_nodes(sheet: Sheet) -> None:
         sheet.line(axes[1], shown[:-1], 1e3 * np.diff(shown), series="element length", **line)
         axes[0].invert_yaxis()  # the wall is below
         for axis in axes:
-            drawing.guide(axis, x=SQUARE.zone)
+            axis.axvline(SQUARE.zone, **drawing.GUIDE)
     sheet.numbers |= {"first element (mm)": 1e3 * laid[1], "shortest element (mm)": 1e3 * float(np.diff(laid).min())}
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from bent_beam_programs.thesis.gallery.drawing import guide, plain_line
+from bent_beam_programs.thesis.gallery.drawing import NIL, plain_line
 from bent_beam_programs.thesis.sheet import Sheet, item
 from comparison.figures import style
 from hermite_fe import INTEGRATORS
@@ -112,7 +112,7 @@ def bouncing(sheet: Sheet) -> None:
         hit = float(np.sqrt(2.0 * HEIGHT / GRAVITY))
         axes[0].set(xlim=(0, 3), ylim=(0, 0.52))
         axes[1].set(xlim=(hit - 0.012, hit + 0.012), ylim=(-0.005, 0.04))
-        guide(axes[1], y=0.0)
+        axes[1].axhline(0.0, **NIL)
     first = (times > 0.2) & (times < 0.5)
     sheet.numbers["lowest height at the first bounce (m)"] = float(height[first].min())
     sheet.numbers["the same, position predicted (m)"] = float(predicted[first].min())

@@ -31,6 +31,8 @@ NUMBERS: dict[Panel, tuple[str, ...]] = {
     studied.energy: ("lost_impact", "lost_damping"),
 }
 """Measures that go with a panel."""
+TIMES, PLACES = 60, 80
+DECADES = 4.0  # of the colour scale: below is noise of no consequence, pale
 
 
 def plain_line(colour: str, dashes: str = "-", width: float = 1.0, **drawn: Any) -> dict[str, Any]:
@@ -38,14 +40,8 @@ def plain_line(colour: str, dashes: str = "-", width: float = 1.0, **drawn: Any)
 
 
 FREE, FAST = plain_line("grey", "--"), plain_line("sky", "-.")
-
-
-def guide(axis: Axes, *, x: float | None = None, y: float | None = None) -> None:
-    """A thin grey line across an axis."""
-    if x is not None:
-        axis.axvline(x, color=style.COLOURS["grey"], lw=0.6, ls=":")
-    if y is not None:
-        axis.axhline(y, color=style.COLOURS["grey"], lw=0.5)
+NIL, GUIDE = plain_line("grey", width=0.5), plain_line("grey", ":", 0.6)
+"""Thin lines across an axis: where a quantity is nil, and at a place."""
 
 
 def beam_at_times(
@@ -135,10 +131,6 @@ def beam_panel(
     mark = plain_line("vermilion", "", marker="v", ms=5, clip_on=False)
     sheet.line(axis, np.unique([-front, front]), 0.0, series="contact points", **mark)
     style.wall_below(axis, *limits)
-
-
-TIMES, PLACES = 60, 80
-DECADES = 4.0  # of the colour scale: below is noise of no consequence, pale
 
 
 @dataclass(frozen=True)

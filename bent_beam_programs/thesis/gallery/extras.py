@@ -8,12 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from bent_beam.history import ImpactHistory
 from bent_beam.meshes import GradedMesh, UniformMesh
 from bent_beam_programs.thesis.gallery import chapter3_contact_point as contact_point
 from bent_beam_programs.thesis.gallery import chapter3_first_order as first
 from bent_beam_programs.thesis.gallery.chapter3_contact_point import COLOURS, CONTACT, FLAT, SHOWN
-from bent_beam_programs.thesis.gallery.drawing import guide, numbers_of, plain_line
+from bent_beam_programs.thesis.gallery.drawing import GUIDE, numbers_of, plain_line
 from bent_beam_programs.thesis.gallery.runs import case, reference_history, thesis
 from bent_beam_programs.thesis.sheet import Sheet, item, legend_below
 from bent_beam_programs.thesis.studies import conditioning as study
@@ -29,6 +28,17 @@ from comparison.readable import readable
 from hermite_fe import CONTACTS, HermiteFE
 from hermite_fe.contacts import impact_coupling
 from hermite_fe.masses import LumpedMass, Mass
+
+ROTARY = (16.0, 24.0, 32.0, 50.0, 105.0, 420.0)
+"""1/r of the lumped masses of the coupling figure."""
+CANDIDATES = {
+    "consistent": CONSISTENT,
+    "lumped, r = 1/24": LumpedMass(1.0 / 24.0),
+    "lumped, r = 1/78": LumpedMass(1.0 / 78.0),
+    "lumped, r = 1/105": THESIS_MASS,
+    "lumped, r = 1/420": LumpedMass(1.0 / 420.0),
+}
+"""Mass matrices that the thesis's numbers were tried on; sources in :class:`hermite_fe.masses.LumpedMass`."""
 
 
 @item("extra-uniform")
@@ -96,7 +106,13 @@ def signorini(sheet: Sheet) -> None:
     }
     with sheet.figure(1, 2, height=2.7, legend=2) as (_, axes):
         for name, (history, line) in runs.items():
-            zone, t = whole_zone(history), history.time
+            exact, gap, t, speed = Exact(history.impact), history.array("gap"), history.time, history.impact.velocity
+            zone = np.zeros(t.size)  # of nine tenths of the contact zone, by trapezoids of nodal gaps
+            for k, front in enumerate(0.9 * exact.front(t)):
+                x = history.positions(k)
+                inside = (x >= 0.0) & (x <= front)
+                if inside.sum() > 2:
+                    zone[k] = np.trapezoid(gap[k, inside] ** 2, x[inside]) / ((speed * t[k]) ** 2 * front)
             kept = np.flatnonzero(zone > 0.0)
             kept = kept[:: max(1, kept.size // 40)] if line.get("marker") else kept
             sheet.line(axes[0], 1e6 * t[kept], zone[kept], series=name, **line)
@@ -104,22 +120,6 @@ def signorini(sheet: Sheet) -> None:
             sheet.numbers[f"∫y² dx/((V₀t)²λ_c) at the end, {name}"] = float(zone[-1])
         axes[0].set(xlabel="$t$  (µs)", ylabel=r"$\int y^2\,dx\;/\;(V_0t)^2\lambda_c$  (1)", yscale="log")
         axes[1].set(xlabel="$t$  (µs)", ylabel="impulse  (N s)")
-
-
-def whole_zone(history: ImpactHistory) -> np.ndarray:
-    """∫y² dx over (V₀t)²λ_c for nine tenths of the contact zone at each saved instant (trapezoids of nodal gaps)."""
-    exact, gap = Exact(history.impact), history.array("gap")
-    found = np.zeros(history.time.size)
-    for k, t in enumerate(history.time):
-        front, x = 0.9 * float(exact.front(t)), history.positions(k)
-        inside = (x >= 0.0) & (x <= front)
-        if inside.sum() > 2:
-            found[k] = np.trapezoid(gap[k, inside] ** 2, x[inside]) / ((history.impact.velocity * t) ** 2 * front)
-    return found
-
-
-ROTARY = (16.0, 24.0, 32.0, 50.0, 105.0, 420.0)
-"""1/r of the lumped masses of the coupling figure."""
 
 
 def coupled(contact: str, mass: Mass) -> tuple[float, float]:
@@ -144,7 +144,7 @@ def coupling(sheet: Sheet) -> None:
         axes[0].set_xticks([1.0 / n for n in ROTARY], [f"1/{n:g}" for n in ROTARY], fontsize=6.5, rotation=45.0)
         axes[0].minorticks_off()
         axes[1].set(xlabel=r"coupling of neighbouring constraints $c$  (1)", ylabel="lift  (mm)")
-        guide(axes[1], x=0.0)
+        axes[1].axvline(0.0, **GUIDE)
         for contact, marker in zip(CONTACT, "os"):
             drawn: dict[str, Any] = {"color": COLOURS["lumped", contact], "marker": marker, "ms": 4.5, "mfc": "none"}
             c, lift = found[contact].T
@@ -161,16 +161,6 @@ def coupling(sheet: Sheet) -> None:
             axes[1].annotate(f"1/{n:g}", (c, high), xytext=(5, 3), textcoords="offset points", fontsize=6.5)
             sheet.numbers[f"c, middles, r = 1/{n:g}"] = float(c)
         legend_below(fig, axes[1], 4, fontsize=7.0)
-
-
-CANDIDATES = {
-    "consistent": CONSISTENT,
-    "lumped, r = 1/24": LumpedMass(1.0 / 24.0),
-    "lumped, r = 1/78": LumpedMass(1.0 / 78.0),
-    "lumped, r = 1/105": THESIS_MASS,
-    "lumped, r = 1/420": LumpedMass(1.0 / 420.0),
-}
-"""Mass matrices that the thesis's numbers were tried on; sources in :class:`hermite_fe.masses.LumpedMass`."""
 
 
 @item("extra-masses", beside=contact_point.__name__, shown=SHOWN)

@@ -80,7 +80,6 @@ def thesis(label: str, curvature: float, duration: float, **changes: Any) -> Out
 
 @functools.cache
 def reference_history(curvature: float, duration: float, path: str) -> ImpactHistory:
-    """One reference's run."""
     given = case(curvature, duration)
     (run,) = (v for v in references(given.impact, given.end_time) if v.method.path == path)
     thin = path == HermiteFE.path and given.impact.kappa_over_nu < resolution.THIN

@@ -81,20 +81,14 @@ def run_study(
             draw_methods(sheet, study.heading, outcomes)
         else:
             study.draw(sheet, outcomes)
+        table, document, cells = out / f"{name}-table.csv", out / f"{name}.json", Sheet()
+        cells.data(list(result.columns.values()), result.table())
         try:
-            _write(result, sheet, out)
+            if sheet.figure_ is not None:
+                result.files += [str(f) for f in sheet.save(out, name)]
+            write_atomically(table, cells.csv())
+            result.files += [str(table), str(document)]
+            write_atomically(document, json.dumps(result.to_dict(), indent=1, allow_nan=False))
         except OSError as error:  # the answer is worth more than its files
             result.problem = f"out: {error}"
     return result
-
-
-def _write(result: StudyResult, sheet: Sheet, out: Path) -> None:
-    """Picture with its curves' CSV, the table's CSV, and the result as JSON."""
-    if sheet.figure_ is not None:
-        result.files += [str(f) for f in sheet.save(out, result.name)]
-    table, document = out / f"{result.name}-table.csv", out / f"{result.name}.json"
-    cells = Sheet()
-    cells.data(list(result.columns.values()), result.table())
-    write_atomically(table, cells.csv())
-    result.files += [str(table), str(document)]
-    write_atomically(document, json.dumps(result.to_dict(), indent=1, allow_nan=False))

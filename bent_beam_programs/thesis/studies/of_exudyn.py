@@ -23,6 +23,12 @@ RUNS: dict[str, tuple[float | None, tuple[float, float, float]]] = {
 """Label → (value, (C, D, ρ∞))."""
 TRIED = {"C": ("relative_stiffness", (1.0, 10.0, 100.0)), "D": ("relative_damping", (0.3, 3.0, 30.0))}
 """Of a method: symbol → (field of its contact, values)."""
+# Slopes over the front are of order √τ, τ = t/t* (:class:`exudyn_models.geometry.TrueGeometry`): the end time sets them
+DURATIONS = (1e-3, 1e-2, 3e-2, 1e-1)
+TURN = 1.5  # rad
+COEFFICIENTS = (0.0, 0.3, 0.6)  # of friction
+RUBBING_DURATION = 1e-3  # τ: slopes of about 0.03
+RUBBING_STEP = 1e-2  # h/t
 
 
 def penalised(stiffness: float, damping: float, radius: float, viscosity: float | None = 0.0) -> ExudynModel:
@@ -58,14 +64,6 @@ def penalty_vary(on: MethodOnCase) -> list[Variant]:
     return found
 
 
-PENALTY = Study("penalty", "penalty", penalty_variants, penalty_vary)
-
-
-# Slopes over the front are of order √τ, τ = t/t* (:class:`exudyn_models.geometry.TrueGeometry`): the end time sets them
-DURATIONS = (1e-3, 1e-2, 3e-2, 1e-1)
-TURN = 1.5  # rad
-
-
 def cut(impact: Impact) -> Impact:
     """The beam, cut where it would turn too far, in the linear run too."""
     return impact.replace(length=min(impact.length, 2.0 * TURN / impact.curvature))
@@ -97,14 +95,6 @@ def amplitude_vary(on: MethodOnCase) -> list[Variant]:
     ]
 
 
-AMPLITUDE = Study("amplitude", "geometry", amplitude_variants, amplitude_vary)
-
-
-COEFFICIENTS = (0.0, 0.3, 0.6)
-RUBBING_DURATION = 1e-3  # τ: slopes of about 0.03
-RUBBING_STEP = 1e-2  # h/t
-
-
 def friction_variants(case: Case) -> list[Variant]:
     """Friction at the wall, true geometry
 
@@ -120,6 +110,8 @@ def friction_variants(case: Case) -> list[Variant]:
     return found
 
 
+PENALTY = Study("penalty", "penalty", penalty_variants, penalty_vary)
+AMPLITUDE = Study("amplitude", "geometry", amplitude_variants, amplitude_vary)
 FRICTION = Study(
     "friction", "contact", friction_variants,
     lambda on: on.over("contact", "friction", "friction {:g}", COEFFICIENTS),

@@ -36,7 +36,6 @@ Array = NDArray[np.float64]
 WINDOWS = 50
 CUT_OFF = 0.04
 TOUCH = 1e-6  # of V₀t: smaller gaps are contact (the thesis takes 10⁻⁶ m, too much ahead of a thick front)
-
 MEASURES: dict[str, str] = {
     "contact_length_error": "λ₀ error (%)",
     "reaction_error": "r₀ error (%)",

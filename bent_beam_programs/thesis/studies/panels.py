@@ -40,8 +40,8 @@ def unit(largest: float, name: str) -> tuple[float, str]:
     return 10.0**-power, PREFIX[power] + name
 
 
-def line_styles(outcomes: Sequence[Outcome]) -> list[dict[str, Any]]:
-    """A style each: colours in turn for the varied settings, the path's marker for references.
+def _finished(outcomes: Sequence[Outcome]) -> list[tuple[Outcome, dict[str, Any]]]:
+    """The finished ones with a style each: colours in turn for the varied settings, the path's marker for references.
 
     Lines get thinner one after the other, so that those that coincide can all be seen.
     """
@@ -59,11 +59,7 @@ def line_styles(outcomes: Sequence[Outcome]) -> list[dict[str, Any]]:
         else:  # several of one path differ in colour
             colour = style.SEQUENCE[before % len(style.SEQUENCE)]
             found.append({**style.mark(mark), "color": colour, "ls": "-", "lw": 0.6})
-    return found
-
-
-def _finished(outcomes: Sequence[Outcome]) -> list[tuple[Outcome, dict[str, Any]]]:
-    return [(o, line) for o, line in zip(outcomes, line_styles(outcomes)) if o.failure is None and o.time.size]
+    return [(o, line) for o, line in zip(outcomes, found) if o.failure is None and o.time.size]
 
 
 def _thin(along: Array, line: dict[str, Any]) -> Any:

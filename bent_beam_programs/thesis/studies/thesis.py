@@ -33,15 +33,12 @@ from hermite_fe.masses import ConsistentMass, LumpedMass, Mass
 from self_similar_fe import SelfSimilarFE
 
 Progress = Callable[[int, int], None]
-
 GROWTH, RADIUS = 1.25, 0.8
 DECADES = 2.0
 CONSISTENT = ConsistentMass()  # (3.1.8)
-
 THESIS_MASS = LumpedMass(rotary=1.0 / 105.0)
 """Half an element at each node and the 4l²/420 that (3.1.8) has on its rotation: of the lumpings tried, the one whose
 lifts and strain energies, with nodes and with middles, come closest to the thesis's (docs/numerics.md)."""
-
 MASSES: dict[str, Mass] = {"lumped": THESIS_MASS, "consistent": CONSISTENT}
 """Which one the thesis used is not known: figures of its runs are drawn with both."""
 
