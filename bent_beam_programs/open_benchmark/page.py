@@ -237,8 +237,8 @@ def _figure(rows: Sequence[Row], measure: str, solvers: Sequence[str]) -> str:
             axis.vlines(seconds, errors, tops, color=color, lw=0.8, alpha=0.35)
             mark = MARKS[k % len(MARKS)]
             axis.loglog(seconds, errors, marker=mark, ms=5, lw=1.2, color=color, ls=style, label=solver)
-            open_ = {"marker": mark, "mfc": "white", "color": color}
-            for word, over in (("lifted", open_), ("adhesive", {"marker": "x", "color": "k"})):
+            hollow = {"marker": mark, "mfc": "white", "color": color}
+            for word, over in (("lifted", hollow), ("adhesive", {"marker": "x", "color": "k"})):
                 marked = [p[:2] for row in own if word in row.score.outcome and (p := _point(row, measure))]
                 axis.loglog(*np.array(marked).reshape(-1, 2).T, ls="", ms=5, **over)
     for (low, high), bound in ((axis.get_ylim(), axis.set_ylim), (axis.get_xlim(), axis.set_xlim)):
