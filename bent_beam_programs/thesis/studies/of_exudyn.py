@@ -26,7 +26,7 @@ TRIED = {"C": ("relative_stiffness", (1.0, 10.0, 100.0)), "D": ("relative_dampin
 # Slopes over the front are of order √τ, τ = t/t* (:class:`exudyn_models.geometry.TrueGeometry`): the end time sets them
 DURATIONS = (1e-3, 1e-2, 3e-2, 1e-1)
 TURN = 1.5  # rad
-COEFFICIENTS = (0.0, 0.3, 0.6)  # of friction
+COEFFICIENTS = (0.0, 0.3, 0.6)  # of friction, in true geometry: in the linear limit no point slides along the wall
 RUBBING_DURATION = 1e-3  # τ: slopes of about 0.03
 RUBBING_STEP = 1e-2  # h/t
 
