@@ -46,9 +46,7 @@ def report_questions(methods: Sequence[Method], refines: Sequence[float] = REFIN
 
 def tolerance(what: str, kappa_over_nu: float) -> float:
     """The relative error that this project holds itself to (its regression tests do)."""
-    if what in ("lambda0", "r0"):
-        return 0.001
-    return 0.03 if kappa_over_nu < 0.3 else 0.01
+    return 0.001 if what in ("lambda0", "r0") else 0.03 if kappa_over_nu < 0.3 else 0.01
 
 
 @dataclass(frozen=True)

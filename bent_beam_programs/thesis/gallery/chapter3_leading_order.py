@@ -41,9 +41,7 @@ FINE = (5e-2, 1e-2, 2.5e-3, 5e-4)
 
 def element_length(curvature: float) -> float:
     """The thesis's Δx, m, which it refined for larger curvatures (3.4)."""
-    if curvature > 2.0:
-        return 1e-3
-    return 1.5e-3 if 0.09 < curvature < 0.6 else 2.5e-3
+    return 1e-3 if curvature > 2.0 else 1.5e-3 if 0.09 < curvature < 0.6 else 2.5e-3
 
 
 @functools.cache
