@@ -26,6 +26,7 @@ from platformdirs import user_cache_path
 
 from bent_beam.errors import InputError, nearest
 from bent_beam.versions import versions
+from bent_beam_programs.open_benchmark.problem import Problem
 from comparison.store import PACKAGES, digest_of_files, installed, source_digest
 
 ADAPTERS = Path(__file__).parent / "adapters"
@@ -36,8 +37,6 @@ SHIPPED |= {"chosen": "uniform, the same in every problem"}  # where a table say
 WINDOWS = os.name == "nt"
 SYSTEM_PYTHON = "/usr/bin/python3"
 INSTALL_SECONDS = 900.0
-CODE = (".py", ".so", ".pyd")
-_distributions = cache(packages_distributions)  # to ask takes a second where many are installed
 
 
 @dataclass(frozen=True)
@@ -58,6 +57,10 @@ class Adapter:
     manual: tuple[Sequence[str], ...] = ()
     resolutions: tuple[str, ...] = RESOLUTIONS
 
+    def takes(self, asked: Problem) -> bool:
+        """Whether the code is asked this problem at all."""
+        return not self.kinds or asked.kind in self.kinds
+
     @property
     def folder(self) -> Path:
         """Of its environment: in ``$BENTBEAM_ENVIRONMENTS``, or in the user's cache folder."""
@@ -66,6 +69,7 @@ class Adapter:
 
     @property
     def python(self) -> Path:
+        """The interpreter it runs with."""
         if self.debian:
             return Path(SYSTEM_PYTHON)
         if not self.install:
@@ -74,6 +78,7 @@ class Adapter:
         return Path(scripts) / ("python.exe" if WINDOWS else "python")
 
     def command(self, problem_file: Path, result_file: Path, resolution: str) -> list[str]:
+        """The words of its command line."""
         start = [str(self.python), str(self.file)] if self.file.suffix == ".py" else [str(self.file)]
         return [*start, str(problem_file), str(result_file), resolution, *self.arguments]
 
@@ -114,7 +119,7 @@ class Adapter:
 
 
 def shipped_adapters() -> dict[str, Adapter]:
-    """By name."""
+    """The adapters that are shipped, by name."""
     with open(ADAPTERS / "adapters.toml", "rb") as stream:
         tables = tomllib.load(stream)
     found = {}
@@ -174,6 +179,10 @@ def install(adapter: Adapter) -> str:
     return f"{name}: {', '.join(adapter.install)} in {folder}"
 
 
+CODE = (".py", ".so", ".pyd")
+_distributions = cache(packages_distributions)  # to ask takes a second where many are installed
+
+
 def behind(files: Iterable[Path], folder: Path) -> list[str]:
     """What Python ``files`` import, and what that imports in turn: the digest of each module or package in ``folder``
     or elsewhere on the path, of an installed one its version. What is imported by a computed name is not seen."""
@@ -201,9 +210,13 @@ def behind(files: Iterable[Path], folder: Path) -> list[str]:
 def _imported_by(file: Path) -> set[str]:
     """Top-level names of the modules that a file imports."""
     try:
-        nodes = list(ast.walk(ast.parse(file.read_bytes()))) if file.suffix == ".py" else []
+        tree = ast.walk(ast.parse(file.read_bytes())) if file.suffix == ".py" else ()
     except (SyntaxError, ValueError):
         return set()
-    names = [one.name for node in nodes if isinstance(node, ast.Import) for one in node.names]
-    names += [str(node.module) for node in nodes if isinstance(node, ast.ImportFrom) and not node.level]
-    return {name.partition(".")[0] for name in names}
+    names: set[str] = set()
+    for node in tree:
+        if isinstance(node, ast.Import):
+            names |= {one.name.partition(".")[0] for one in node.names}
+        elif isinstance(node, ast.ImportFrom) and not node.level:
+            names.add(str(node.module).partition(".")[0])
+    return names

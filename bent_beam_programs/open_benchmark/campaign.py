@@ -74,6 +74,7 @@ class Row:
 
     @property
     def table(self) -> str:
+        """The one that it stands in."""
         return "self-declared" if self.declared_because else "run here"
 
     @property
@@ -84,10 +85,18 @@ class Row:
 
     def to_dict(self) -> dict[str, Any]:
         """Ready for JSON."""
-        row = {"solver": self.solver, "resolution": self.resolution, "process_seconds": self.seconds}
-        row |= {"solver_seconds": self.solver_seconds, "table": self.table}
-        row |= {"declared_because": self.declared_because or None, **self.score.to_dict()}
-        return row | {"repeats": self.repeats, "made_by": self.made_by, "unlimited": self.unlimited or None}
+        return {
+            "solver": self.solver,
+            "resolution": self.resolution,
+            "process_seconds": self.seconds,
+            "solver_seconds": self.solver_seconds,
+            "table": self.table,
+            "declared_because": self.declared_because or None,
+            **self.score.to_dict(),
+            "repeats": self.repeats,
+            "made_by": self.made_by,
+            "unlimited": self.unlimited or None,
+        }
 
 
 def campaign(
@@ -111,7 +120,7 @@ def campaign(
         (adapter, item, resolution)
         for adapter, item in product(adapters, asked)
         for resolution in resolutions or adapter.resolutions
-        if not adapter.kinds or item.kind in adapter.kinds
+        if adapter.takes(item)
     ]
     digests = {adapter.name: adapter.digest() for adapter in adapters}
     for done, (adapter, item, resolution) in enumerate(runs):
@@ -126,13 +135,17 @@ def campaign(
     rows: list[Row] = []
     for adapter in adapters:
         own = [_row(one, item, place, out, item.id in drawn_ids) for one, item, place in runs if one is adapter]
-        for row, found in zip(own, resolution_ignored([row.score for row in own])):
-            row = replace(row, score=found)
-            if row.declared_because == NO_HISTORIES:  # two sums can be right by a table of answers: they are not clean
-                others = tuple(finding for finding in found.diagnosis if finding.name != "clean")
-                row = replace(row, score=replace(found, diagnosis=others))
-            rows.append(row)
+        scores = resolution_ignored([row.score for row in own])
+        rows += [_without_praise(replace(row, score=found)) for row, found in zip(own, scores)]
     return rows
+
+
+def _without_praise(row: Row) -> Row:
+    """Two sums can be right by a table of answers: they are clean only where they can be looked into."""
+    if row.declared_because != NO_HISTORIES:
+        return row
+    kept = tuple(finding for finding in row.score.diagnosis if finding.name != "clean")
+    return replace(row, score=replace(row.score, diagnosis=kept))
 
 
 def drawn(names: Sequence[str], seed: int) -> list[str]:

@@ -30,23 +30,37 @@ KNOTS = 300  # of the stopped beam's spline: its J is within 1e-6 of the closed 
 def computed(asked: Problem) -> dict[str, Any]:
     """The references of a problem, as they stand in ``references.json``."""
     if asked.is_front:
-        found = contact_parameters(asked.kappa_over_nu, *asked.loads[:3], axial=asked.loads[3])
-        names = ("lambda0", "r0", "lambda1", "r1") if asked.kind == "first" else ("lambda0", "r0")
-        return {"values": {name: float(getattr(found, name)) for name in names}}
+        return {"values": _front(asked)}
     if asked.kind.startswith("elastic"):
-        if asked.kind == "elastic-wall":  # by a Volterra equation
-            peak = peak_force(asked.kappa_over_nu, asked.given["wall_damping"] / 2.0)
-            values, errors = (peak.value, peak.time), (peak.error, PEAK_TIME * peak.time)
-        else:  # by modes: the bar is what half of them change
-            values, few = (SwungBeam(**asked.given, modes=n).peak_force(asked.end_time) for n in (MODES, MODES // 2))
-            errors = abs(values[0] - few[0]), abs(values[1] - few[1])
-        names = ("peak_force", "peak_time")
-        return {"values": dict(zip(names, values)), "errors": dict(zip(names, errors))}
+        return _largest_force(asked)
     if asked.kind == "stopped-beam":
-        roots = np.linspace(0.0, asked.end_time**0.25, KNOTS)
-        impulse = np.concatenate([[0.0], StoppedBeam(asked.damping).impulse(roots[1:] ** 4)])
-        return {"impulse": _pieces("fourth root of time", roots, CubicSpline(roots, impulse).c.T)}
+        return {"impulse": _stopped_beam(asked)}
     return {"impulse": _rung(asked)}
+
+
+def _front(asked: Problem) -> dict[str, float]:
+    alpha, psi, chi, axial = asked.loads
+    found = contact_parameters(asked.kappa_over_nu, alpha, psi, chi, **({"axial": axial} if axial else {}))
+    names = ("lambda0", "r0", "lambda1", "r1") if asked.kind == "first" else ("lambda0", "r0")
+    return {name: float(getattr(found, name)) for name in names}
+
+
+def _largest_force(asked: Problem) -> dict[str, Any]:
+    """Of a wall that gives way, by a Volterra equation; of a stop, by modes: the bar is what half of them change."""
+    if asked.kind == "elastic-wall":
+        peak = peak_force(asked.kappa_over_nu, asked.given["wall_damping"] / 2.0)
+        values, errors = (peak.value, peak.time), (peak.error, PEAK_TIME * peak.time)
+    else:
+        values, few = (SwungBeam(**asked.given, modes=n).peak_force(asked.end_time) for n in (MODES, MODES // 2))
+        errors = abs(values[0] - few[0]), abs(values[1] - few[1])
+    names = ("peak_force", "peak_time")
+    return {"values": dict(zip(names, values)), "errors": dict(zip(names, errors))}
+
+
+def _stopped_beam(asked: Problem) -> dict[str, Any]:
+    roots = np.linspace(0.0, asked.end_time**0.25, KNOTS)
+    impulse = np.concatenate([[0.0], StoppedBeam(asked.damping).impulse(roots[1:] ** 4)])
+    return _pieces("fourth root of time", roots, CubicSpline(roots, impulse).c.T)
 
 
 def _rung(asked: Problem) -> dict[str, Any]:
@@ -69,11 +83,13 @@ def _rung(asked: Problem) -> dict[str, Any]:
         x = (np.arange(64) + 0.5)[:, None] / 64.0
         events, impulse = [0.5, 1.5, 2.5, 3.5], lambda t: StringOnObstacle().impulse(x, t[None, :]).mean(axis=0)
     breaks = np.unique([0.0, *(t for t in events if t < end), end])
-    parabolas = []  # coefficients in t − start, the highest first
-    for start, stop in pairwise(breaks):
-        t = (stop - start) * np.array([0.25, 0.5, 0.75])
-        parabolas.append(np.linalg.solve(np.vander(t, 3), impulse(start + t)))
-    return _pieces("time", breaks, np.array(parabolas))
+    return _pieces("time", breaks, np.array([_parabola(impulse, a, b) for a, b in pairwise(breaks)]))
+
+
+def _parabola(impulse: Any, start: float, stop: float) -> Any:
+    """Coefficients in t − start, the highest first."""
+    t = (stop - start) * np.array([0.25, 0.5, 0.75])
+    return np.linalg.solve(np.vander(t, 3), impulse(start + t))
 
 
 def _pieces(variable: str, breaks: Any, coefficients: Any) -> dict[str, Any]:
@@ -89,7 +105,12 @@ def whole_impact(asked: Problem, elements: int = SAMPLE) -> dict[str, Any]:
 
     method = HermiteFE(mesh=UniformMesh(element_length=1.0 / elements))
     found = bounce(beam(asked.kappa_over_nu, asked.damping), method)
-    about: dict[str, Any] = {"kappa_over_nu": asked.kappa_over_nu, "damping": asked.damping}
-    about |= {name: [found.numbers[name].value, found.numbers[name].bar] for name in NUMBERS}
-    about |= {"error_parts": dict(getattr(found.numbers["restitution"], "parts", {})), "settings": found.settings}
-    return about | {"steps": found.runs.run.steps, "seconds": found.seconds}
+    return {
+        "kappa_over_nu": asked.kappa_over_nu,
+        "damping": asked.damping,
+        **{name: [found.numbers[name].value, found.numbers[name].bar] for name in NUMBERS},
+        "error_parts": dict(getattr(found.numbers["restitution"], "parts", {})),
+        "settings": found.settings,
+        "steps": found.runs.run.steps,
+        "seconds": found.seconds,
+    }

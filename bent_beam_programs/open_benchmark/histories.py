@@ -26,10 +26,12 @@ def result_from_history(history: ImpactHistory, asked: Problem | None = None) ->
     asked : the problem that it answers; ``None`` reads it off the history's impact.
     Raises :class:`ResultError` for an impact that is none of the infinite beam's: no exact solution knows of it.
     """
-    impact, asked = history.impact, asked or _problem_of(history)
+    impact = history.impact
+    asked = asked or _problem_of(history)
     length, time = impact.length_scale, impact.time_scale
     impulse = impact.mass_per_length * impact.velocity * length
-    energy, tau = impulse * impact.velocity, history.time / time
+    energy = impulse * impact.velocity
+    tau = history.time / time
     series = {"J_minus": _tensile_impulse(history) / impulse}
     if "position" not in history:  # a mesh that expands takes in energy with the beam that it takes in
         sources = {"E_kin": "kinetic_energy", "E_el": "strain_energy"}
@@ -38,23 +40,38 @@ def result_from_history(history: ImpactHistory, asked: Problem | None = None) ->
     keep = keep[tau[keep] > 0.0]
     places = np.array([history.positions(int(k)) for k in keep]) / length
     nodes = np.sort(np.abs(places[-1]))
-    model = {"theory": "Euler-Bernoulli", "time_step": _last_step(history) / time, "half_length": float(nodes[-1])}
+    model = {
+        "time_step": _last_step(history) / time,
+        "half_length": float(nodes[-1]),
+        "smallest_element": float(np.diff(np.unique(nodes)).min()),
+        "theory": "Euler-Bernoulli",
+    }
     metadata = {
         "tool": f"bent-beam-impact, {history.path}",
         "version": history.versions.get("bent-beam-impact", ""),
         "seconds": history.seconds,
         "steps": history.steps,
         "settings": history.settings,
-        "model": model | {"smallest_element": float(np.diff(np.unique(nodes)).min())},
+        "model": model,
     }
-    total, moment = history.array("total_impulse") / impulse, one_side(history)[1] / (impulse * length)
-    shown = {"x": places, "snap_tau": tau[keep], "snap_gap": history.array("gap", keep) / length}
-    if "velocity" in history:
-        shown["snap_v"] = history.array("velocity", keep) / impact.velocity
-    if "contact_position" not in history:
-        shown |= {"node_x": history.contact_positions(0) / length, "node_impulse": history.array("impulse") / impulse}
-    stated = ("completed", "") if history.completed else ("diverged", f"{tau[-1]:g}")
-    return Result(*stated, asked, metadata, tau, total, moment, series, **shown, pull_is_read_off=False)
+    still = "contact_position" not in history
+    return Result(
+        "completed" if history.completed else "diverged",
+        "" if history.completed else f"{tau[-1]:g}",
+        asked,
+        metadata,
+        tau,
+        history.array("total_impulse") / impulse,
+        one_side(history)[1] / (impulse * length),
+        series,
+        places,
+        tau[keep],
+        history.array("gap", keep) / length,
+        history.array("velocity", keep) / impact.velocity if "velocity" in history else None,
+        history.contact_positions(0) / length if still else None,
+        history.array("impulse") / impulse if still else None,
+        pull_is_read_off=False,
+    )
 
 
 def _problem_of(history: ImpactHistory) -> Problem:

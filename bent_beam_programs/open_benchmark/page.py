@@ -24,7 +24,7 @@ from bent_beam.versions import processor
 from bent_beam_programs.open_benchmark.adapter import GIVEN, RESOLUTIONS, Adapter, shipped_adapters
 from bent_beam_programs.open_benchmark.campaign import Row
 from bent_beam_programs.open_benchmark.judgement import LOADED, Score
-from bent_beam_programs.open_benchmark.problem import LADDER, problem
+from bent_beam_programs.open_benchmark.problem import LADDER, Problem, problem
 
 MEASURES = {"lambda0": "λ₀", "r0": "r₀", "lambda1": "λ₁", "r1": "r₁", "restitution": "e", "impulse_error": "J(t)"}
 MEASURES |= {"peak_force": "the largest force", "peak_time": "its time"}
@@ -33,6 +33,7 @@ SMALLEST = 1e-7  # relative error that a figure still shows
 TEMPLATES = Path(__file__).parent / "templates"
 IN_SHORT = ("lambda0", "r0", "restitution", "impulse_error", "peak_force", "peak_time")  # errors where no loads act
 CONVERGED = 0.002  # relative error on the finest mesh that a converging code reaches (strict codes do)
+
 WORDS = {
     "leading": "infinite beam: the contact spreads",
     "point": "infinite beam: one point in contact",
@@ -116,7 +117,7 @@ def _sheet(rows: Sequence[Row], name: str, solvers: Sequence[str], out: Path) ->
     """A problem's part of a table; its figures are written to ``out``, too."""
     own = [row for row in rows if row.problem == name]
     wanted = LOADED if problem(name).kind == "first" else MEASURES
-    figures = {m: _figure(own, m, solvers) for m in wanted if any(_point(row, m) for row in own)}
+    figures = {m: _svg(_figure(own, m, solvers)) for m in wanted if any(_point(row, m) for row in own)}
     for measure, text in figures.items():
         write_atomically(out / f"{name}-{measure}.svg", text)
     shown = [measure for measure in MEASURES if any(measure in row.score.measured for row in own)]
@@ -129,6 +130,14 @@ def _sheet(rows: Sequence[Row], name: str, solvers: Sequence[str], out: Path) ->
     }
 
 
+def _regime(asked: Problem) -> str:
+    """Which loads act on an infinite beam."""
+    alpha, psi, _, axial = asked.loads
+    if axial:
+        return "tension" if axial > 0.0 else "compression"
+    return "lift-off" if alpha + psi < 0.0 else "pressed"
+
+
 def write_page(
     rows: Sequence[Row], adapters: Sequence[Adapter], out: Path, about: dict[str, Any] | None = None
 ) -> Path:
@@ -137,18 +146,18 @@ def write_page(
     page. ``about`` : :func:`document` of both."""
     about = about or document(rows, adapters)
     solvers = list(dict.fromkeys([*(a.name for a in adapters), *(row.solver for row in rows)]))
-    sheets = {}
-    for table in ("run here", "self-declared"):
-        own, file_name = [row for row in rows if row.table == table], table.replace(" ", "-")
-        place, names = out / "sheets" / file_name, dict.fromkeys(row.problem for row in own)
-        sheets[table] = [_sheet(own, name, solvers, place) for name in names]
-        for mesh, given in (("", False), ("-given", True)):
-            shown = [row for row in own if (row.resolution == GIVEN) == given]
-            write_atomically(out / f"errors-{file_name}{mesh}.md", errors_table(shown, solvers))
-    templates = jinja2.FileSystemLoader(TEMPLATES)
-    loader = jinja2.Environment(loader=templates, autoescape=True, trim_blocks=True, lstrip_blocks=True)
+    tables = {name: [row for row in rows if row.table == name] for name in ("run here", "self-declared")}
+    loader = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True, lstrip_blocks=True
+    )
     html = loader.get_template("benchmark.html.j2").render(
-        tables=sheets,
+        tables={
+            table: [
+                _sheet(own, name, solvers, out / "sheets" / _file_name(table))
+                for name in dict.fromkeys(row.problem for row in own)
+            ]
+            for table, own in tables.items()
+        },
         seed=about["seed"],
         solvers=about["solvers"],
         versions={row.solver: version for row in rows if (version := row.score.metadata.get("version"))},
@@ -157,8 +166,16 @@ def write_page(
         minutes=about["seconds"] / 60.0,
     )
     write_atomically(out / "benchmark.json", json.dumps(about, indent=1, allow_nan=False))
+    for name, own in tables.items():
+        for mesh, given in (("", False), ("-given", True)):
+            shown = [row for row in own if (row.resolution == GIVEN) == given]
+            write_atomically(out / f"errors-{_file_name(name)}{mesh}.md", errors_table(shown, solvers))
     write_atomically(out / "index.html", html)
     return out / "index.html"
+
+
+def _file_name(table: str) -> str:
+    return table.replace(" ", "-")
 
 
 class Property(NamedTuple):
@@ -173,10 +190,7 @@ class Property(NamedTuple):
     def counts(self, row: Row) -> bool:
         """Whether a row is one of these."""
         asked = problem(row.problem)
-        alpha, psi, _, axial = asked.loads
-        pushed = "lift-off" if alpha + psi < 0.0 else "pressed"
-        regime = pushed if not axial else "tension" if axial > 0.0 else "compression"
-        fits = asked.kind in self.kinds and self.regime in ("", regime)
+        fits = asked.kind in self.kinds and self.regime in ("", _regime(asked))
         return fits and row.resolution in (RESOLUTIONS[-1:] if self.finest else (*RESOLUTIONS, GIVEN))
 
 
@@ -193,6 +207,7 @@ PROPERTIES = {
 
 
 def properties(rows: Sequence[Row], solver: str) -> dict[str, str]:
+    """One code's column of the table."""
     own = [row for row in rows if row.solver == solver]
     return {"converges": _converges(own), **{name: _largest(own, rule) for name, rule in PROPERTIES.items()}}
 
@@ -221,9 +236,8 @@ def _converges(rows: Sequence[Row]) -> str:
     return f"{sum(converged)} of {len(converged)} problems" if converged else "no result"
 
 
-def _figure(rows: Sequence[Row], measure: str, solvers: Sequence[str]) -> str:
-    """Of one number, as an SVG element, the same bits for the same numbers. A faint line above a point ends at the
-    error plus the error bar."""
+def _figure(rows: Sequence[Row], measure: str, solvers: Sequence[str]) -> Figure:
+    """Of one number. A faint line above a point ends at the error plus the error bar."""
     figure = Figure(figsize=(5.2, 4.3), layout="constrained")
     axis = figure.subplots()
     styles = {name: k for k, name in enumerate([*shipped_adapters(), *sorted(set(solvers) - set(shipped_adapters()))])}
@@ -237,23 +251,22 @@ def _figure(rows: Sequence[Row], measure: str, solvers: Sequence[str]) -> str:
             axis.vlines(seconds, errors, tops, color=color, lw=0.8, alpha=0.35)
             mark = MARKS[k % len(MARKS)]
             axis.loglog(seconds, errors, marker=mark, ms=5, lw=1.2, color=color, ls=style, label=solver)
-            hollow = {"marker": mark, "mfc": "white", "color": color}
-            for word, over in (("lifted", hollow), ("adhesive", {"marker": "x", "color": "k"})):
+            for word, over in (("lifted", {"marker": mark, "mfc": "white"}), ("adhesive", {"marker": "x"})):
                 marked = [p[:2] for row in own if word in row.score.outcome and (p := _point(row, measure))]
-                axis.loglog(*np.array(marked).reshape(-1, 2).T, ls="", ms=5, **over)
+                axis.loglog(
+                    *np.array(marked).reshape(-1, 2).T, ls="", ms=5, color=color if over.get("mfc") else "k", **over
+                )
     for (low, high), bound in ((axis.get_ylim(), axis.set_ylim), (axis.get_xlim(), axis.set_xlim)):
         bound(10.0 ** np.floor(np.log10(low)), 10.0 ** np.ceil(np.log10(high)))
     axis.xaxis.set_minor_formatter("")
-    axis.set_xlabel("seconds of the time loop (of the process where not reported)")
-    axis.set_ylabel(f"relative error of {MEASURES[measure]}")
+    axis.set(
+        xlabel="seconds of the time loop (of the process where not reported)",
+        ylabel=f"relative error of {MEASURES[measure]}",
+    )
     axis.grid(True, which="major", lw=0.4, color="0.85")
     axis.spines[["top", "right"]].set_visible(False)
     figure.legend(loc="outside lower center", ncols=3, frameon=False, fontsize=8)
-    stream = io.StringIO()
-    with matplotlib.rc_context({"svg.hashsalt": "beam-impact", "svg.fonttype": "path"}):
-        figure.savefig(stream, format="svg", metadata={"Date": None})
-    text = stream.getvalue()
-    return text[text.index("<svg") :]
+    return figure
 
 
 def _point(row: Row, measure: str) -> tuple[float, float, float] | None:
@@ -263,3 +276,12 @@ def _point(row: Row, measure: str) -> tuple[float, float, float] | None:
         return None
     error = max(abs(found.relative() or 0.0), SMALLEST)
     return seconds, error, error + (found.relative_bar() or 0.0)
+
+
+def _svg(figure: Figure) -> str:
+    """The figure as an SVG element, the same bits for the same numbers."""
+    stream = io.StringIO()
+    with matplotlib.rc_context({"svg.hashsalt": "beam-impact", "svg.fonttype": "path"}):
+        figure.savefig(stream, format="svg", metadata={"Date": None})
+    text = stream.getvalue()
+    return text[text.index("<svg") :]

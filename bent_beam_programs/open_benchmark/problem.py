@@ -50,10 +50,7 @@ class Rung(NamedTuple):
 
 BALL = {"mass": 1.0, "gravity": 1.0, "height": 0.5, "velocity": 0.0}
 BAR = {"axial_stiffness": 1.0, "mass_per_length": 1.0, "length": 1.0, "velocity": 0.0, "gap": 0.0, "gravity": 0.0}
-FREE, STRETCHED = {"shape": "0", "far_end": "free"}, {"shape": "(length - x)/(2 length)", "far_end": "held"}
-FALLING = BAR | {"axial_stiffness": 900.0, "length": 10.0, "gap": 5.0, "gravity": 10.0} | FREE
-STRING: dict[str, Any] = {"tension": 1.0, "mass_per_length": 1.0, "length": 1.0, "height": 1.0}
-STRING |= {"shape": "4 height x (length - x)/length^2", "velocity": 0.0, "ends": "fixed", "obstacle": 0.0}
+FREE = {"shape": "0", "far_end": "free"}
 LADDER = {
     # lands at t = 1, and again every 2: ten impacts by the end
     "ball": Rung("bouncing ball, ten elastic impacts", BALL | {"restitution": 1.0}, 20.0),
@@ -62,11 +59,25 @@ LADDER = {
     # in contact from 0.5 to 2.5
     "bar": Rung("elastic bar that meets the wall end on and leaves", BAR | {"velocity": 1.0, "gap": 0.5} | FREE, 3.0),
     # held at its far end, let go stretched: in contact from 1 to 2, 4 to 5, 7 to 8
-    "released-bar": Rung("bar let go from stretched in front of the wall", BAR | STRETCHED, 8.5),
+    "released-bar": Rung(
+        "bar let go from stretched in front of the wall",
+        BAR | {"shape": "(length - x)/(2 length)", "far_end": "held"},
+        8.5,
+    ),
     # the bouncing bar of Doyen, Ern and Piperno (2011): two periods of 16/3
-    "bouncing-bar": Rung("elastic bar that falls on the floor, twice", FALLING, 11.0),
+    "bouncing-bar": Rung(
+        "elastic bar that falls on the floor, twice",
+        BAR | {"axial_stiffness": 900.0, "length": 10.0, "gap": 5.0, "gravity": 10.0} | FREE,
+        11.0,
+    ),
     # lands on the obstacle through its ends at 0.5, 1.5, 2.5 and 3.5
-    "string": Rung("string that lands on an obstacle all at once, four times", STRING | {"restitution": 1.0}, 4.0),
+    "string": Rung(
+        "string that lands on an obstacle all at once, four times",
+        {"tension": 1.0, "mass_per_length": 1.0, "length": 1.0, "height": 1.0}
+        | {"shape": "4 height x (length - x)/length^2", "velocity": 0.0, "ends": "fixed", "obstacle": 0.0}
+        | {"restitution": 1.0},
+        4.0,
+    ),
 }
 EQUATION = (  # stands in the file, as comments
     "# u(x, t): deflection into the wall from the beam's shape at the first touch, which is at x = 0, t = 0.",
@@ -81,6 +92,7 @@ SWUNG |= {"angular_velocity": 3.8}
 SWUNG_END = 0.012  # s
 STOPS = (3e3, 1e7)  # N/m: a softer one pushes most after that, stiffer ones need more modes than the exact answer has
 WALLS, RATIOS = (1e-6, 1e6), (0.0, 5.0)  # κ/ν and ζ for which the largest force on an elastic wall is known
+STOPPED_DAMPING, STOPPED_END = 0.01, 0.1  # the wall first lets go at 0.1516
 
 
 @dataclass(frozen=True)
@@ -91,8 +103,8 @@ class Problem:
     of the ladder's balls, bars and strings.
     kappa_over_nu : κ/ν. loads : (α, ψ, χ, n) with ν = 1, scaled by ``epsilon``; zeros at leading order.
     length : of the whole beam, ``None`` for an infinite one. damping : Kelvin–Voigt time η over T*.
-    end_time, fit_window (its last decade) : in t* (the ladder: in its own unit of time). given : the numbers of a
-    problem that has a table of its own: the ladder's lower rungs, elastic walls and stops.
+    end_time, fit_window : in t* (the ladder: in the problem's own unit of time). given : the numbers of a problem that
+    has a table of its own: the ladder's lower rungs, elastic walls and stops.
     """
 
     id: str
@@ -108,12 +120,18 @@ class Problem:
 
     @property
     def fit_window(self) -> tuple[float, float]:
+        """The last decade of time."""
         return self.end_time / 10.0, self.end_time
 
     @property
     def is_front(self) -> bool:
         """The infinite beam: λ₀ and r₀ mean something."""
         return self.kind in ("leading", "point", "first")
+
+    @property
+    def is_symmetric(self) -> bool:
+        """Whether one half of the beam, x ≥ 0, may stand for both."""
+        return not self.given or self.kind == "elastic-wall"
 
     @property
     def largest_half_length(self) -> float:
@@ -169,8 +187,9 @@ def problem(name: str) -> Problem:
         raise InputError(f"problem: {shortened(name)} is not the id of a problem")
     if name in LADDER:
         return Problem(name, name, end_time=LADDER[name].end_time, snapshots=(), given=LADDER[name].given)
-    if name == "stopped-beam":  # the wall first lets go at 0.1516
-        return Problem(name, name, 2.0, length=2.0, damping=0.01, end_time=0.1, snapshots=(0.05,))
+    if name == "stopped-beam":
+        end, half = STOPPED_END, (0.5 * STOPPED_END,)
+        return Problem(name, name, 2.0, length=2.0, damping=STOPPED_DAMPING, end_time=end, snapshots=half)
     for kind, pattern in IDS.items():
         if match := pattern.fullmatch(name):
             try:
@@ -192,7 +211,7 @@ def _of_numbers(name: str, kind: str, numbers: list[float]) -> Problem:
     if kind == "elastic-wall":
         ratio = between("Z", numbers[1], *RATIOS)
         between("K", kappa, *WALLS)
-        units = dict.fromkeys(("bending_stiffness", "mass_per_length", "velocity", "wall_stiffness"), 1.0)
+        units = {name: 1.0 for name in ("bending_stiffness", "mass_per_length", "velocity", "wall_stiffness")}
         given = {**units, "curvature": kappa, "wall_damping": 2.0 * ratio}
         # as long as a force may last: that of a straight beam is over at π, a sharp one's grows with κ^¼
         return Problem(name, kind, kappa, end_time=4.0 * max(1.0, kappa**0.25), snapshots=(), given=given)

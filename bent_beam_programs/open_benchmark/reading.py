@@ -55,12 +55,7 @@ def load_result(file: str | Path) -> Result:
         if source.suffix.lower() not in readers:
             raise ResultError("must end in .npz, .csv or .json (CSV beside JSON), or .nc (a history)")
         result = readers[source.suffix.lower()](source)
-        level: list[Any] = [result.metadata]  # what is nested deeper could be read and not be written again
-        for _ in range(DEEPEST):
-            parts = (part for whole in level for part in (whole.values() if isinstance(whole, dict) else whole))
-            level = [part for part in parts if isinstance(part, dict | list)]
-        if level:
-            raise ResultError(f"metadata is nested more than {DEEPEST} levels deep")
+        _check_depth(result.metadata)
         return result
     except (ValueError, OSError, RecursionError, OverflowError, MemoryError) as error:
         line = _one_line(error)
@@ -68,6 +63,16 @@ def load_result(file: str | Path) -> Result:
         raise ResultError(line)
     of_pair = line.startswith((f"{source.stem}.csv", f"{source.stem}.json"))  # the part of a pair that is wrong
     raise ResultError(str(source.parent / line) if of_pair else f"{source}: {line}")
+
+
+def _check_depth(metadata: Any) -> None:
+    """Refuse what could be read and not be written again: writers of JSON have bounds of their own."""
+    level: list[Any] = [metadata]
+    for _ in range(DEEPEST):
+        parts = (part for whole in level for part in (whole.values() if isinstance(whole, dict) else whole))
+        level = [part for part in parts if isinstance(part, dict | list)]
+    if level:
+        raise ResultError(f"metadata is nested more than {DEEPEST} levels deep")
 
 
 def _one_line(error: BaseException) -> str:
@@ -90,13 +95,7 @@ def _history(source: Path) -> Result:
 
 
 def _npz(source: Path) -> Result:
-    with source.open("rb") as stream:  # a table of contents of a million entries would be read whole by ``zipfile``
-        stream.seek(-min(source.stat().st_size, 66_000), io.SEEK_END)
-        tail = stream.read()
-    end = tail.rfind(b"PK\x05\x06")
-    size = int.from_bytes(tail[end + 12 : end + 16], "little")
-    if end >= 0 and (size > MOST_DIRECTORY or tail[max(end - 20, 0) : end].startswith(b"PK\x06\x07")):
-        raise ResultError(f"its table of contents is longer than {MOST_DIRECTORY} bytes")
+    _check_directory(source)
     found, where = {}, "is not a readable NPZ file"
     try:
         with zipfile.ZipFile(source) as archive:
@@ -115,6 +114,17 @@ def _npz(source: Path) -> Result:
     except Exception as error:  # zipfile and NumPy raise many kinds for a broken file
         raise ResultError(f"{where}: {_one_line(error)}") from None
     return result_from_fields(found)
+
+
+def _check_directory(source: Path) -> None:
+    """Refuse a table of contents of a million entries, which ``zipfile`` would read whole."""
+    with source.open("rb") as stream:
+        stream.seek(-min(source.stat().st_size, 66_000), io.SEEK_END)
+        tail = stream.read()
+    end = tail.rfind(b"PK\x05\x06")
+    size = int.from_bytes(tail[end + 12 : end + 16], "little")
+    if end >= 0 and (size > MOST_DIRECTORY or tail[max(end - 20, 0) : end].startswith(b"PK\x06\x07")):
+        raise ResultError(f"its table of contents is longer than {MOST_DIRECTORY} bytes")
 
 
 def _table(source: Path) -> Result:

@@ -24,6 +24,7 @@ from bent_beam_programs.open_benchmark.problem import Problem, problem
 __all__ = ["OUTCOMES", "Result", "ResultError", "result_from_fields"]
 
 Array = NDArray[np.float64]
+
 OUTCOMES = (
     "completed", "diverged", "not_converged", "unsupported", "not_attempted", "timeout", "crashed", "not_installed",
 )  # fmt: skip
@@ -119,7 +120,7 @@ def result_from_fields(fields: Mapping[str, Any]) -> Result:
 
 def _completed(fields: Mapping[str, Any], asked: Problem, detail: str, metadata: dict[str, Any]) -> Result:
     tau = _instants(fields, asked)
-    arrays = _nodes(fields, tau, symmetric=not asked.given or asked.kind == "elastic-wall")
+    arrays = _nodes(fields, tau, asked.is_symmetric)
     needed = ("J", "Jm") if asked.is_front else ("J",)
     declared = [name for name in SERIES if name not in arrays and (name in fields or name in needed)]
     arrays |= {name: _series(fields, name, tau.size) for name in declared}
@@ -136,10 +137,11 @@ def _text(fields: Mapping[str, Any], name: str) -> str:
         if value.size != 1:
             raise ResultError(f"{name} must be one text (got {value.size} values)")
         value = value.reshape(()).item()
-    try:
-        value = value.decode("utf-8") if isinstance(value, bytes) else value
-    except UnicodeDecodeError:
-        raise ResultError(f"{name} is not UTF-8 text") from None
+    if isinstance(value, bytes):
+        try:
+            value = value.decode("utf-8")
+        except UnicodeDecodeError:
+            raise ResultError(f"{name} is not UTF-8 text") from None
     if not isinstance(value, str):
         raise ResultError(f"{name} must be a text (got {shortened(value)})")
     if len(value) > MOST_TEXT:
@@ -236,20 +238,27 @@ def _nodes(fields: Mapping[str, Any], tau: Array, symmetric: bool) -> dict[str, 
         return {}
     x, impulse = (_numbers(fields, name) for name in ("node_x", "node_impulse"))
     if x.ndim != 1 or impulse.shape != (tau.size, x.size) or not x.size:
-        wanted = f"({tau.size}, points of node_x)"
-        raise ResultError(f"node_impulse must have shape {wanted} (got {impulse.shape}, {x.shape})")
+        raise ResultError(
+            f"node_impulse must have shape ({tau.size}, points of node_x) (got {impulse.shape}, {x.shape})"
+        )
     sides = 2.0 if symmetric and x.min() >= -1e-9 * np.abs(x).max() else 1.0
     ends = np.unique(np.searchsorted(tau, np.linspace(0.0, tau[-1], INTERVALS + 1)))
     kept = impulse[ends]
     lost = np.maximum(np.minimum(kept[:-2], kept[1:-1]) - kept[2:], 0.0).sum(axis=1).cumsum()
     pulled = np.interp(tau, tau[ends], np.concatenate([[0.0, 0.0], lost]))
     declared = _series(fields, "J_minus", tau.size) if "J_minus" in fields else 0.0
-    sums = {"J": sides * impulse.sum(axis=1), "Jm": sides / 2.0 * (impulse @ np.abs(x))}
-    return sums | {"node_x": x, "node_impulse": impulse, "J_minus": np.maximum(sides * pulled, declared)}
+    return {
+        "node_x": x,
+        "node_impulse": impulse,
+        "J": sides * impulse.sum(axis=1),
+        "Jm": sides / 2.0 * (impulse @ np.abs(x)),
+        "J_minus": np.maximum(sides * pulled, declared),
+    }
 
 
 def _snapshots(fields: Mapping[str, Any]) -> dict[str, Any]:
-    given, missing = ([name for name in SNAPSHOTS if (name in fields) == there] for there in (True, False))
+    given = [name for name in SNAPSHOTS if name in fields]
+    missing = [name for name in SNAPSHOTS if name not in fields]
     if not given:
         return {}
     if missing:
@@ -268,7 +277,8 @@ def _snapshots(fields: Mapping[str, Any]) -> dict[str, Any]:
     if when.min() < 0.0:
         raise ResultError(f"snap_tau must not be negative (got {when.min():g})")
     found = {"x": x, "snap_tau": when, "snap_gap": gap}
-    found |= {"snap_v": _numbers(fields, "snap_v")} if "snap_v" in fields else {}
-    if (shape := found.get("snap_v", gap).shape) != gap.shape:
-        raise ResultError(f"snap_v must have the shape of snap_gap, {gap.shape} (got {shape})")
+    if "snap_v" in fields:
+        found["snap_v"] = velocity = _numbers(fields, "snap_v")
+        if velocity.shape != gap.shape:
+            raise ResultError(f"snap_v must have the shape of snap_gap, {gap.shape} (got {velocity.shape})")
     return found

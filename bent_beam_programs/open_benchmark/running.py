@@ -70,7 +70,8 @@ def run_adapter(adapter: Adapter, asked: Problem, resolution: str, kept: Path, l
 def _once(adapter: Adapter, asked: Problem, resolution: str, kept: Path, limits: Limits) -> Run:
     for old in (kept, kept.with_suffix(".csv"), kept.with_suffix(".json")):
         old.unlink(missing_ok=True)
-    if missing := adapter.missing():
+    missing = adapter.missing()
+    if missing:
         return Run("not_installed", missing, 0.0)
     kept.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(prefix=".run-", dir=kept.parent, ignore_cleanup_errors=True) as place:
@@ -105,10 +106,7 @@ def _ended(adapter: Adapter, resolution: str, folder: Path, limits: Limits) -> t
             return 0, ("crashed", f"could not be started: {error.strerror or error}"), ""
         guard = None
         try:
-            if os.name == "posix":  # a shell that ends group and folder when this process is killed: its pipe closes
-                last = f'read _; kill -9 -{process.pid}; rm -rf "$0"'
-                shell = ["sh", "-c", last, str(folder)]
-                guard = subprocess.Popen(shell, stdin=subprocess.PIPE, start_new_session=True)
+            guard = _guard(process, folder)
             ended = _waited(process, folder, limits)
         finally:
             _end(process, f"BENTBEAM_RUN={mark}")
@@ -130,6 +128,14 @@ def _file_size(limits: Limits) -> Callable[[], None] | None:
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
     return limit
+
+
+def _guard(process: subprocess.Popen[bytes], folder: Path) -> subprocess.Popen[bytes] | None:
+    """A shell that ends the adapter's group and its folder when this process is killed: its pipe closes then."""
+    if os.name != "posix":
+        return None
+    last = f'read _; kill -9 -{process.pid}; rm -rf "$0"'
+    return subprocess.Popen(["sh", "-c", last, str(folder)], stdin=subprocess.PIPE, start_new_session=True)
 
 
 def _waited(process: subprocess.Popen[bytes], folder: Path, limits: Limits) -> tuple[str, str]:

@@ -22,7 +22,6 @@ from bent_beam_programs.open_benchmark.result import Array, Result, ResultError
 from bent_beam_programs.open_benchmark.symptoms import last_push, readings
 
 __all__ = ["resolution_ignored", "score"]
-SAME = 1e-6  # of numbers: no two meshes agree so well
 
 
 def score(result: Result, base: Result | None = None) -> Score:
@@ -31,8 +30,12 @@ def score(result: Result, base: Result | None = None) -> Score:
     Raises :class:`ResultError` when ``base`` does not belong to the result's problem.
     """
     asked = result.problem
-    raw = result.node_impulse is not None and result.snap_gap is not None
-    found = Score(asked.id, result.stated, metadata=result.metadata, raw=raw)
+    found = Score(
+        asked.id,
+        result.stated,
+        metadata=result.metadata,
+        raw=result.node_impulse is not None and result.snap_gap is not None,
+    )
     if result.outcome != "completed":
         return replace(found, reason=result.detail or result.outcome)
     if not asked.is_front:
@@ -64,12 +67,13 @@ def _estimates(result: Result, base: Result | None) -> dict[str, Number]:
         loaded = _moments(result, load=asked.uniform_load, lambda0=leading.lambda0.known)
         change = first_order([(asked.epsilon, loaded)], _moments(_sampled(base, result.tau)), leading)
         estimates |= {"lambda1": change.lambda1, "r1": change.r1}
-    answer, found = reference(asked), {}
-    for name, number in estimates.items():
-        exact = answer[name]
-        known = number.spread <= max(abs(number.value or 0.0), abs(exact or 0.0)) or not exact
-        found[name] = Number(number.value, abs(number.bar or 0.0), exact) if known else Number(theory=exact)
-    return found
+    exact = reference(asked)
+    return {name: _number(number, exact[name]) for name, number in estimates.items()}
+
+
+def _number(found: Number, exact: float | None) -> Number:
+    known = found.spread <= max(abs(found.value or 0.0), abs(exact or 0.0)) or not exact
+    return Number(found.value if known else None, abs(found.bar or 0.0) if known else None, exact)
 
 
 def _sampled(base: Result, tau: Array) -> Result:
@@ -133,8 +137,7 @@ def _largest_force(result: Result) -> tuple[float, float]:
 
 
 def _judged(found: Score, result: Result) -> Score:
-    """What is seen, the judge's additions to the outcome, and the verdict: the cause that the first symptom has alone,
-    else whether a number is off, or that the result is clean."""
+    """What is seen, the judge's additions to the outcome, and the verdict."""
     front = found.measured.get("lambda0", Number()).value or 0.0 if result.problem.kind == "leading" else 0.0
     seen, missing = readings(result, front)
     shown = [one for one in seen.values() if one.seen]
@@ -150,13 +153,7 @@ def _judged(found: Score, result: Result) -> Score:
         additions.append("no number" if widest is None else f"within its bar of {100.0 * widest:.2g} %")
     reason = "; ".join(map(str, found.symptoms)) or None
     found = replace(found, outcome=", ".join([found.outcome, *additions]), reason=reason)
-    compared = any(number.difference is not None for number in found.measured.values())
-    diagnosis = (Finding("clean"),) if compared and not found.symptoms else ()
-    if found.symptoms and (known := CAUSES.get(found.symptoms[0].name)) and known[1](result, found):
-        diagnosis = (Finding(known[0], str(found.symptoms[0]), known[2]),)
-    elif found.off:
-        diagnosis = (Finding("off", found.reason or "", "the problem's numbers, then mesh and steps"),)
-    return replace(found, diagnosis=diagnosis)
+    return replace(found, diagnosis=_causes(result, found))
 
 
 def _of_numbers(found: Score) -> list[Symptom]:
@@ -172,7 +169,7 @@ def _of_numbers(found: Score) -> list[Symptom]:
     return shown
 
 
-# Causes are named only where the first symptom has one cause alone.
+#
 # A wall on springs pushes where it is penetrated, and by as much. A thin first front throws the zone off the wall as a
 # whole. Sums are wrong where momentum alone is violated. Everything else has several causes, and none is named.
 
@@ -224,6 +221,19 @@ CAUSES: dict[str, tuple[str, Callable[[Result, Score], bool], str]] = {
     "penetration": ("soft_penalty", _on_springs, "a stiffer contact: as stiff as an element's bending, 12 EI/Δx³"),
     "lift": ("start_unresolved", _thrown_off, "smaller elements at the first touch, or closed points held at first"),
 }
+
+
+def _causes(result: Result, found: Score) -> tuple[Finding, ...]:
+    """The cause that the first symptom has alone, else whether a number is off, or that the result is clean."""
+    if found.symptoms and (known := CAUSES.get(found.symptoms[0].name)) and known[1](result, found):
+        return (Finding(known[0], str(found.symptoms[0]), known[2]),)
+    if found.off:
+        return (Finding("off", found.reason or "", "the problem's numbers, then mesh and steps"),)
+    compared = any(number.difference is not None for number in found.measured.values())
+    return (Finding("clean"),) if compared and not found.symptoms else ()
+
+
+SAME = 1e-6  # of numbers: no two meshes agree so well
 
 
 def resolution_ignored(scores: Sequence[Score]) -> list[Score]:

@@ -13,6 +13,7 @@ from matplotlib.axes import Axes
 from scipy.interpolate import CubicHermiteSpline
 
 from bent_beam.history import ImpactHistory
+from bent_beam.measure.numbers import Number
 from bent_beam.meshes import UniformMesh
 from bent_beam_programs.thesis.gallery.drawing import plain_line
 from bent_beam_programs.thesis.gallery.runs import case, thesis
@@ -32,30 +33,32 @@ from theory import contact_parameters
 
 NAMES = ("1/80", "1/40", "1/20", "1/10", "1/5", "1/2", "1", "5", "10")
 CURVATURES = dict(zip(NAMES, (20.0 * k for k in THESIS_KAPPAS)))
-CURVATURE, DURATION, ELEMENT = 25.0, 0.01, 5e-2
-STEP, END = 2.5e-8, 2.5e-5  # s
-LATE = 1.6e-3  # s, end of the run with middles
-MIDDLE = CURVATURE * ELEMENT**2 / 8.0 / 20.0  # s, until the middle of an element reaches the wall
-FINE = (5e-2, 1e-2, 2.5e-3, 5e-4)
 
 
 def element_length(curvature: float) -> float:
     """The thesis's Δx, m, which it refined for larger curvatures (3.4)."""
-    return 1e-3 if curvature > 2.0 else 1.5e-3 if 0.09 < curvature < 0.6 else 2.5e-3
+    if curvature > 2.0:
+        return 1e-3
+    return 1.5e-3 if 0.09 < curvature < 0.6 else 2.5e-3
 
 
 @functools.cache
 def noisy() -> dict[float, Outcome]:
     """κ/ν → the thesis's own run: its settings, middles, lumped mass, τ = 0.1."""
-    curvatures = CURVATURES.values()
-    return {k / 20.0: thesis("", k, 0.1, element_length=element_length(k), mass=THESIS_MASS) for k in curvatures}
+    return {
+        k / 20.0: thesis(f"K = {name}", k, 0.1, element_length=element_length(k), mass=THESIS_MASS)
+        for name, k in CURVATURES.items()
+    }
 
 
 @functools.cache
 def matched() -> list[MatchRow]:
     """Hermite, and Exudyn at every second curvature, with automatic choices; kept runs are used."""
-    asked = questions(methods_of(("hermite",)), THESIS_KAPPAS, error_bars="drift")
-    asked += questions(methods_of(("exudyn",)), THESIS_KAPPAS[::2], error_bars="drift")
+    asked = [
+        question
+        for path, ratios in (("hermite", THESIS_KAPPAS), ("exudyn", THESIS_KAPPAS[::2]))
+        for question in questions(methods_of((path,)), ratios, error_bars="drift")
+    ]
     rows = match(asked, store=RunStore.usual())
     if not any(r.lambda0.measured for r in rows):
         raise ValueError(rows[0].reason or "no row has a number")
@@ -76,11 +79,14 @@ def parameters(sheet: Sheet) -> None:
     prints g = 1; 3.3.4 concludes g = 0, and 3.3.3 and 3.4 say that the runs have it.
     """
     chosen = [resolution.choose(given.impact, given.end_time) for given in (case(1 / 80, 0.1), case(10.0, 0.1))]
-    lengths, steps = [np.diff(c.nodes) for c in chosen], [c.integrator for c in chosen]
+    lengths = [np.diff(c.nodes) for c in chosen]
     rows: dict[str, tuple[str, list[str]]] = {
         "contact": ("element middles", [kind(c.contact) for c in chosen]),
         "integrator": ("nonsmooth generalised-α", [kind(c.integrator) for c in chosen]),
-        "time step h": ("2.5·10⁻⁸ s", [f"max({readable(i.time_step, 2)} s, {i.growth:g} t)" for i in steps]),
+        "time step h": (
+            "2.5·10⁻⁸ s",
+            [f"max({readable(c.integrator.time_step, 2)} s, {c.integrator.growth:g} t)" for c in chosen],
+        ),
         "damping": ("ρ∞ = 0.8", [kind(c.far_field) for c in chosen]),
         "restitution": ("g = 1 (printed), 0 (used)", [f"{c.contact.restitution:g}" for c in chosen]),
         "held behind the front": ("–", [f"{c.contact.hold} rows" if c.contact.hold else "none" for c in chosen]),
@@ -108,14 +114,20 @@ def curvatures(sheet: Sheet) -> None:
     sheet.table(["K (1/m)", "κ/ν", "λ₀", "r₀/ν", "elements per front"], rows, width=4.6)
 
 
+def shares(number: Number) -> tuple[float, float]:
+    """Difference from theory and error bar, over theory."""
+    return float(number.relative() or 0.0), float(number.relative_bar() or 0.0)
+
+
 def compare(sheet: Sheet, what: str, symbol: str, error: str) -> None:
     """Theory's curve, the thesis's settings and both paths, and their differences below."""
     ratios = np.geomspace(4e-4, 0.99, 300)
-    old = [(k, v / 100.0, 0.0) for k, o in noisy().items() if (v := o.measures[error]) is not None]
-    points = [("thesis's settings", plain_line("grey", "", marker="x", ms=4.5), old)]
+    old = {k: v for k, o in noisy().items() if (v := o.measures[error]) is not None}
+    cross = plain_line("grey", "", marker="x", ms=4.5)
+    points = [("thesis's settings", cross, [(k, v / 100.0, 0.0) for k, v in old.items()])]
     for name, mark in style.marks(r.label for r in matched()).items():
-        mine = [(r.kappa_over_nu, getattr(r, what)) for r in matched() if r.label == name and getattr(r, what).measured]
-        points.append((name, mark, [(k, float(n.relative() or 0.0), float(n.relative_bar() or 0.0)) for k, n in mine]))
+        mine = [r for r in matched() if r.label == name and getattr(r, what).measured]
+        points.append((name, mark, [(r.kappa_over_nu, *shares(getattr(r, what))) for r in mine]))
     with sheet.figure(2, 1, width=4.6, height=4.9, sharex=True, height_ratios=[1.5, 1]) as (_, (top, below)):
         top.set(xscale="log", yscale="log", ylabel=f"{symbol}  (1)")
         below.set(xlabel=r"$\kappa/\nu$  (1)", ylabel="difference  (%)")
@@ -152,6 +164,15 @@ items(__name__, compare, (
      "√(2/π)μV₀(EI/μ)^¼ r₀, one side, N√s.",
      "r0", r"$r_0/\nu$", "reaction_error"),
 ))  # fmt: skip
+
+
+# discrete contact
+
+CURVATURE, DURATION, ELEMENT = 25.0, 0.01, 5e-2
+STEP, END = 2.5e-8, 2.5e-5  # s
+LATE = 1.6e-3  # s, end of the run with middles
+MIDDLE = CURVATURE * ELEMENT**2 / 8.0 / 20.0  # s, until the middle of an element reaches the wall
+FINE = (5e-2, 1e-2, 2.5e-3, 5e-4)
 
 
 @functools.cache
@@ -209,28 +230,8 @@ def discrete(sheet: Sheet) -> None:
         geometry(sheet, axes[0, 0], nodes, (0.0, END), (-340, 30))
         geometry(sheet, axes[0, 1], middles, (0.0, 0.5 * MIDDLE, MIDDLE, LATE), (-60, 18))
         axes[0, 1].set_xlim(0, 0.11)
-        axis = axes[1, 0]
-        axis.set(xlabel="$t$  (µs)", ylabel="$E - E(0)$  (J)", xlim=(-2.0, 1e6 * END))
-        for (name, mass), colour in zip(MASSES.items(), ("vermilion", "sky")):
-            history = run("node", ELEMENT, 50.0, END, STEP, mass)
-            change, shade = np.append([0.0], energy_change(history)), style.COLOURS[colour]
-            times = np.append([-2e-6], history.time)  # free flight before
-            sheet.line(axis, 1e6 * times, change, series=f"nodes, {name}", color=shade)
-        sheet.line(axis, [0.0, 1e6 * END], [0.0, 0.0], series="theory", **style.THEORY)
-        axis.legend(fontsize=7, loc="center right", bbox_to_anchor=(1.0, 0.75))
-        axis = axes[1, 1]
-        for element, colour in zip(FINE, style.SEQUENCE):
-            history = run("node", element, 1.0, END, STEP, THESIS_MASS)
-            edges = np.concatenate([history.time[:11], np.linspace(history.time[10], END, 41)[1:]])
-            total = np.interp(edges, history.time, history.array("total_impulse"))
-            force, middle = np.diff(total) / np.diff(edges), 0.5 * (edges[1:] + edges[:-1])
-            sheet.line(axis, 1e6 * middle, 1e-3 * force, series=f"Δx = {readable(element)} m", color=colour, lw=0.9)
-        t = np.geomspace(0.5 * STEP, END, 200)
-        exact = Exact(case(CURVATURE, DURATION).impact)
-        sheet.line(axis, 1e6 * t, 2e-3 * exact.side_reaction(t), series="theory", **style.THEORY)
-        axis.set(xlabel="$t$  (µs)", ylabel="reaction $R$  (kN)", xscale="log", yscale="log")
-        axis.set(xlim=(1e-2, 25), ylim=(1.0, 1e6))
-        axis.legend(fontsize=6.5, loc="upper right", ncols=2)
+        energies(sheet, axes[1, 0])
+        impulses(sheet, axes[1, 1])
     closed = int(np.argmax(middles.array("total_impulse") > 0.0))
     sheet.numbers["middles close at (s)"] = float(middles.time[closed])
     for name, mass in MASSES.items():
@@ -239,3 +240,32 @@ def discrete(sheet: Sheet) -> None:
     sheet.numbers["first impact, lumped, h = 10⁻¹⁰ s (N s)"] = first_impact(ELEMENT, THESIS_MASS, 1e-10)[0]
     for element in FINE:
         sheet.numbers[f"first step, Δx = {readable(element)} m (N s)"] = first_impact(element, THESIS_MASS)[0]
+
+
+def energies(sheet: Sheet, axis: Axes) -> None:
+    """Energy over time with both masses, contact at nodes."""
+    axis.set(xlabel="$t$  (µs)", ylabel="$E - E(0)$  (J)", xlim=(-2.0, 1e6 * END))
+    for (name, mass), colour in zip(MASSES.items(), ("vermilion", "sky")):
+        history = run("node", ELEMENT, 50.0, END, STEP, mass)
+        change, shade = energy_change(history), style.COLOURS[colour]
+        times, change = np.append([-2e-6], history.time), np.append([0.0], change)  # free flight before
+        sheet.line(axis, 1e6 * times, change, series=f"nodes, {name}", color=shade)
+    sheet.line(axis, [0.0, 1e6 * END], [0.0, 0.0], series="theory", **style.THEORY)
+    axis.legend(fontsize=7, loc="center right", bbox_to_anchor=(1.0, 0.75))
+
+
+def impulses(sheet: Sheet, axis: Axes) -> None:
+    """R(t) of the whole beam for several element lengths."""
+    for element, colour in zip(FINE, style.SEQUENCE):
+        history = run("node", element, 1.0, END, STEP, THESIS_MASS)
+        time = history.time
+        edges = np.concatenate([time[:11], np.linspace(time[10], END, 41)[1:]])
+        force = np.diff(np.interp(edges, time, history.array("total_impulse"))) / np.diff(edges)
+        middle = 0.5 * (edges[1:] + edges[:-1])
+        sheet.line(axis, 1e6 * middle, 1e-3 * force, series=f"Δx = {readable(element)} m", color=colour, lw=0.9)
+    t = np.geomspace(0.5 * STEP, END, 200)
+    exact = Exact(case(CURVATURE, DURATION).impact)
+    sheet.line(axis, 1e6 * t, 2e-3 * exact.side_reaction(t), series="theory", **style.THEORY)
+    axis.set(xlabel="$t$  (µs)", ylabel="reaction $R$  (kN)", xscale="log", yscale="log")
+    axis.set(xlim=(1e-2, 25), ylim=(1.0, 1e6))
+    axis.legend(fontsize=6.5, loc="upper right", ncols=2)

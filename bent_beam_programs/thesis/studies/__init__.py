@@ -21,7 +21,7 @@ from bent_beam_programs.thesis.sheet import Sheet
 from bent_beam_programs.thesis.studies import conditioning, first_order_case, numerical, of_exudyn
 from bent_beam_programs.thesis.studies.base import Study, StudyResult, outcomes_of
 from bent_beam_programs.thesis.studies.of_methods import CONCLUSION, draw_methods, runs_of_methods
-from bent_beam_programs.thesis.studies.outcome import MEASURES
+from bent_beam_programs.thesis.studies.outcome import MEASURES, Outcome
 from bent_beam_programs.thesis.studies.thesis import Progress, run_variants
 
 SAME = 30  # characters of a warning that tell its kind: its numbers differ from run to run
@@ -60,10 +60,6 @@ def run_study(
     else:
         outcomes = outcomes_of(study, case, jobs=jobs, progress=progress)
     rows = [o.row() for o in outcomes]
-    warnings: dict[tuple[str, str], str] = {}  # each kind of a method once, with its first run
-    for o in (o for o in outcomes if methods or o.mark is not None):
-        for text in o.warnings:
-            warnings.setdefault((o.method, text[:SAME]), f"{o.name}: {text}")
     measured = MEASURES if methods else study.columns
     result = StudyResult(
         name=study.name,
@@ -73,7 +69,7 @@ def run_study(
         rows=rows,
         conclusion=CONCLUSION if methods else study.conclusion,
         files=[],
-        warnings=list(warnings.values()),
+        warnings=_warnings([o for o in outcomes if methods or o.mark is not None]),
     )
     if out is not None:
         sheet = Sheet()
@@ -81,14 +77,29 @@ def run_study(
             draw_methods(sheet, study.heading, outcomes)
         else:
             study.draw(sheet, outcomes)
-        table, document, cells = out / f"{name}-table.csv", out / f"{name}.json", Sheet()
-        cells.data(list(result.columns.values()), result.table())
         try:
-            if sheet.figure_ is not None:
-                result.files += [str(f) for f in sheet.save(out, name)]
-            write_atomically(table, cells.csv())
-            result.files += [str(table), str(document)]
-            write_atomically(document, json.dumps(result.to_dict(), indent=1, allow_nan=False))
+            _write(result, sheet, out)
         except OSError as error:  # the answer is worth more than its files
             result.problem = f"out: {error}"
     return result
+
+
+def _warnings(outcomes: Sequence[Outcome]) -> list[str]:
+    """Each kind of warning of a method once, with its first run."""
+    found: dict[tuple[str, str], str] = {}
+    for o in outcomes:
+        for text in o.warnings:
+            found.setdefault((o.method, text[:SAME]), f"{o.name}: {text}")
+    return list(found.values())
+
+
+def _write(result: StudyResult, sheet: Sheet, out: Path) -> None:
+    """Picture with its curves' CSV, the table's CSV, and the result as JSON."""
+    if sheet.figure_ is not None:
+        result.files += [str(f) for f in sheet.save(out, result.name)]
+    table, document = out / f"{result.name}-table.csv", out / f"{result.name}.json"
+    cells = Sheet()
+    cells.data(list(result.columns.values()), result.table())
+    write_atomically(table, cells.csv())
+    result.files += [str(table), str(document)]
+    write_atomically(document, json.dumps(result.to_dict(), indent=1, allow_nan=False))
