@@ -124,9 +124,8 @@ def points_of(row: int, stratum: str, file: Path) -> list[Point]:
         others = [one[name] for one in values if one[name] is not None]
         unit = max(abs(number.known), 1e-3)
         error = max((abs(number.known - other) for other in others), default=math.inf)
-        found.append(
-            Point(row, load_case(file).impact.kappa_over_nu, stratum, name, error / unit, number.spread / unit)
-        )
+        kappa = load_case(file).impact.kappa_over_nu
+        found.append(Point(row, kappa, stratum, name, error / unit, number.spread / unit))
     return found
 
 

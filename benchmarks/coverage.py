@@ -111,8 +111,7 @@ def _hermite(random: np.random.Generator, kappa: float, duration: float) -> tupl
         {"kind": "scale_free", "element_length": 0.1 * element, "growth": min(growth, 1.04)},
     ]
     schemes: list[dict[str, Any]] = [
-        {"kind": "signorini_position"},
-        {"kind": "signorini_position"},
+        *[{"kind": "signorini_position"}] * 2,
         {"kind": "moreau_jean", "theta": float(random.choice([1.0, 0.8, 0.6]))},
         {"kind": "nonsmooth_generalized_alpha", "spectral_radius": float(random.choice([0.8, 0.5]))},
         {"kind": "generalized_alpha_penalty"},
@@ -209,11 +208,9 @@ def draw_figure(found: Coverage, out: Path) -> None:
     from comparison.figures import style
 
     with style.figure(1, 1, width=style.COLUMN, height=3.2) as (fig, axis):
-        for names, label, mark in (
-            (("lambda0", "r0"), r"$\lambda_0$, $r_0$", style.HERMITE),
-            (("lambda1", "r1"), r"$\lambda_1$, $r_1$", style.EXUDYN),
-        ):
-            mine = [(p.bar, max(p.error, 1e-7)) for p in found.points if p.name in names]
+        for order, mark in (("0", style.HERMITE), ("1", style.EXUDYN)):
+            mine = [(p.bar, max(p.error, 1e-7)) for p in found.points if p.name in (f"lambda{order}", f"r{order}")]
+            label = rf"$\lambda_{order}$, $r_{order}$"
             axis.plot(*np.array(mine).reshape(-1, 2).T, **{**mark, "label": label, "ms": 3})
         bars = [p.bar for p in found.points if p.bar > 0.0]
         ends = np.array([0.5 * min(bars, default=1e-4), 2.0 * max(bars, default=1e-1)])

@@ -45,11 +45,6 @@ class Row:
 
 def keep(file: Path, rows: list[dict[str, Any]]) -> None:
     """Write rows with date, processor and versions."""
-    record = {
-        "date": today(),
-        "processor": processor(),
-        "python": platform.python_version(),
-        "versions": versions(),
-        "rows": rows,
-    }
+    record = {"date": today(), "processor": processor(), "python": platform.python_version()}
+    record |= {"versions": versions(), "rows": rows}
     write_atomically(file, json.dumps(record, indent=1, ensure_ascii=False) + "\n")

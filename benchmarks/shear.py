@@ -59,10 +59,8 @@ def _main() -> None:
         for kappa in (0.05, 0.1, 0.2, 0.5, 0.8, 1.0, 1.2, 2.0, 5.0):
             after = forgotten_after(kappa)
             for time in (after, 3.0 * after) if kappa >= 0.2 else (after,):
-                values = lacking(kappa, time, 0.1, ratio)
-                print(
-                    f"κ/ν = {kappa:4g}, t = {time:4g} t_s:", *(f"{k} {v:+.4f}" for k, v in values.items()), flush=True
-                )
+                values = (f"{name} {value:+.4f}" for name, value in lacking(kappa, time, 0.1, ratio).items())
+                print(f"κ/ν = {kappa:4g}, t = {time:4g} t_s:", *values, flush=True)
         print("elastic wall: largest force over Euler and Bernoulli's")
         for kappa in (0.05, 0.5, 1.0, 5.0):
             for wall_time in (1.0, 3.0, 10.0):

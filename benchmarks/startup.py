@@ -46,11 +46,9 @@ IDLE = 0.3  # s, of the first of the yardsticks (the least of thirty: 0.28 to 0.
 
 def seconds(words: list[str], **environment: str) -> float:
     """Of processors, for one interpreter from start to end and all that it starts."""
-    surroundings = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
+    around = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"} | environment
     before = os.times()
-    subprocess.run(
-        [sys.executable, *words], cwd=ROOT, stdout=subprocess.DEVNULL, check=True, env={**surroundings, **environment}
-    )
+    subprocess.run([sys.executable, *words], cwd=ROOT, stdout=subprocess.DEVNULL, check=True, env=around)
     after = os.times()
     return after.children_user + after.children_system - before.children_user - before.children_system
 

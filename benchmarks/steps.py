@@ -39,16 +39,14 @@ BEAMS: tuple[tuple[str, tuple[int, ...], dict[str, Any]], ...] = (  # sizes, and
 
 def paired(steps: Callable[[], None], yardstick: Callable[[], None], rounds: int) -> tuple[float, float]:
     """Median of step/yardstick, :data:`STEPS` of either in turn, and the shortest step, s."""
-    ratios, taken = [], []
+    taken = []
     for _ in range(rounds):
         a = time.perf_counter()
         steps()
         b = time.perf_counter()
         yardstick()
-        c = time.perf_counter()
-        ratios.append((b - a) / (c - b))
-        taken.append((b - a) / STEPS)
-    return statistics.median(ratios), min(taken)
+        taken.append((b - a, time.perf_counter() - b))
+    return statistics.median(own / other for own, other in taken), min(taken)[0] / STEPS
 
 
 def exponent(sizes: Sequence[int], ratios: Sequence[float]) -> float | None:

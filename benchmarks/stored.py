@@ -26,7 +26,7 @@ GALLERY = "out/gallery"
 
 @dataclass(frozen=True)
 class Numbers:
-    """Stored numbers. files : relative to the checkout; confirm, renew : arguments of Python, a command after another;
+    """Stored numbers. files : relative to the programs; confirm, renew : arguments of Python, a command after another;
     waits_for : the numbers that they are made of or shown beside, before them in :data:`ALL`."""
 
     name: str
@@ -38,52 +38,26 @@ class Numbers:
     @property
     def stale(self) -> bool:
         """Whether code or settings of one of the files are others today."""
-        return any(is_stale(ROOT / file) for file in self.files)
+        return any(is_stale(ROOT / PROGRAMS / file) for file in self.files)
 
 
+BOUNCES, STUDIES = f"-m {BENCHMARK}.bounce_reference", f"-m {THESIS}.stored_studies"
+DRAWN = (f"-m comparison.command_line gallery --out {GALLERY} --jobs {{jobs}}", f"-m {THESIS}.stored_numbers {GALLERY}")
+SPEEDS = ("report/stored/work-precision.json", "report/stored/work-precision-first-order.json")
 ALL = (
-    Numbers(
-        "restitutions",
-        (f"{PROGRAMS}/open_benchmark/bounce_reference.json",),
-        (f"-m {BENCHMARK}.bounce_reference",),
-        f"-m {BENCHMARK}.bounce_reference --confirm",
-    ),
-    Numbers(
-        "studies",
-        (f"{PROGRAMS}/stored_studies/studies.json",),
-        (f"-m {THESIS}.stored_studies --jobs {{jobs}}",),
-        f"-m {THESIS}.stored_studies --confirm",
-    ),
-    Numbers(
-        "numbers",
-        (f"{PROGRAMS}/stored_studies/numbers.json",),
-        (
-            f"-m comparison.command_line gallery --out {GALLERY} --jobs {{jobs}}",
-            f"-m {THESIS}.stored_numbers {GALLERY}",
-        ),
-        waits_for=("studies",),
-    ),
-    Numbers(
-        "work and precision",
-        (f"{PROGRAMS}/report/stored/work-precision.json", f"{PROGRAMS}/report/stored/work-precision-first-order.json"),
-        (f"-m {REPORT}.work",),
-        waits_for=("numbers",),
-    ),
-    Numbers(
-        "references",
-        (f"{PROGRAMS}/open_benchmark/references.json",),
-        (f"-m {BENCHMARK}.release",),
-        waits_for=("restitutions",),
-    ),
+    Numbers("restitutions", ("open_benchmark/bounce_reference.json",), (BOUNCES,), f"{BOUNCES} --confirm"),
+    Numbers("studies", ("stored_studies/studies.json",), (f"{STUDIES} --jobs {{jobs}}",), f"{STUDIES} --confirm"),
+    Numbers("numbers", ("stored_studies/numbers.json",), DRAWN, waits_for=("studies",)),
+    Numbers("work and precision", SPEEDS, (f"-m {REPORT}.work",), waits_for=("numbers",)),
+    Numbers("references", ("open_benchmark/references.json",), (f"-m {BENCHMARK}.release",), None, ("restitutions",)),
 )
 """Work and precision stores seconds, so nothing else runs beside it: one after another, whatever waits for what."""
 
 
 def _runs(commands: tuple[str, ...], jobs: int) -> bool:
     """Whether every command ends well."""
-    return all(
-        subprocess.run([sys.executable, *c.format(jobs=jobs).split()], cwd=ROOT).returncode == 0 for c in commands
-    )
+    words = ([sys.executable, *command.format(jobs=jobs).split()] for command in commands)
+    return all(subprocess.run(one, cwd=ROOT).returncode == 0 for one in words)
 
 
 def bring_up_to_date(numbers: Numbers, *, renew: bool, jobs: int) -> bool:

@@ -57,12 +57,9 @@ def change_by_damping(kappa_over_nu: float, damping: float, element: float = 0.0
     half = math.sqrt(2.0 * end / kappa_over_nu) + 8.0 * math.sqrt(end) + 5.0
     beam = Impact(1.0, 1.0, 2.0 * half, kappa_over_nu, 1.0, wall_stiffness=1.0)
     method = HermiteFE(mesh=UniformMesh(element), integrator=Midpoint(0.01, 0.0), far_field=QUIET)
-    forces = []
-    for one in (beam, beam.replace(damping=damping)):
-        found = wall_peaks(method.simulate(one, end_time=end, save=50))
-        assert found is not None
-        forces.append(found.force)
-    return forces[1] / forces[0] - 1.0
+    found = [wall_peaks(method.simulate(one, end_time=end, save=50)) for one in (beam, beam.replace(damping=damping))]
+    assert found[0] is not None and found[1] is not None
+    return found[1].force / found[0].force - 1.0
 
 
 def _main() -> None:

@@ -90,13 +90,8 @@ def draw(out: Path) -> list[Path]:
             axis.set_xticks([25, 50, 100, 200, 500], labels=["25", "50", "100", "200", "500"])
             axis.tick_params(which="minor", labelbottom=False)
         right.set(xlabel=r"$t/t_s$  (1)", ylabel=r"$R/V_0\sqrt{\kappa_sGA\,\mu}$  (1)")
-        last.set(
-            xscale="log",
-            xlabel=r"$t/t_s$  (1)",
-            ylabel="simulation over theory $-$ 1  (%)",
-            ylim=(-5.5, 4.0),
-            xlim=(1.7, 25.0),
-        )
+        last.set(xscale="log", xlabel=r"$t/t_s$  (1)", ylabel="simulation over theory $-$ 1  (%)")
+        last.set(ylim=(-5.5, 4.0), xlim=(1.7, 25.0))
         last.set_xticks([2.0, 5.0, 10.0, 20.0], labels=["2", "5", "10", "20"])
         last.tick_params(which="minor", labelbottom=False)
         middle.legend(loc="center")

@@ -179,8 +179,6 @@ def install(adapter: Adapter) -> str:
     return f"{name}: {', '.join(adapter.install)} in {folder}"
 
 
-# --- what the code of an adapter depends on -------------------------------------------------------------------------
-
 CODE = (".py", ".so", ".pyd")
 _distributions = cache(packages_distributions)  # to ask takes a second where many are installed
 

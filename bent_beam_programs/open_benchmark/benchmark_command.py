@@ -12,7 +12,6 @@ from comparison.command_line.options import Json, Quiet, complete, emit, progres
 
 
 def solver_names(incomplete: str) -> list[str]:
-    """Completion of a code's name: the shipped adapters."""
     from bent_beam_programs.open_benchmark.adapter import shipped_adapters
 
     return complete(list(shipped_adapters()), incomplete)

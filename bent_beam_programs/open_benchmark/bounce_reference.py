@@ -42,14 +42,9 @@ def _main() -> None:
     for name in names:
         found[name] = whole_impact(problem(name), ELEMENTS)
         print(name, found[name]["restitution"], flush=True)
-    write(
-        BOUNCES,
-        "whole impacts of a free-free bent beam, units L/2 = EI = mu = V0 = 1: number -> [value, error bar]",
-        "python -m bent_beam_programs.open_benchmark.bounce_reference",
-        PACKAGES,
-        {"path": HermiteFE.path, "elements": ELEMENTS},
-        {"problems": found},
-    )
+    what = "whole impacts of a free-free bent beam, units L/2 = EI = mu = V0 = 1: number -> [value, error bar]"
+    made_by = "python -m bent_beam_programs.open_benchmark.bounce_reference"
+    write(BOUNCES, what, made_by, PACKAGES, {"path": HermiteFE.path, "elements": ELEMENTS}, {"problems": found})
 
 
 if __name__ == "__main__":

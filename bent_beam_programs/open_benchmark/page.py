@@ -178,9 +178,6 @@ def _file_name(table: str) -> str:
     return table.replace(" ", "-")
 
 
-# --- property × code -----------------------------------------------------------------------------------------------
-
-
 class Property(NamedTuple):
     """The largest of ``numbers`` of the scores of the problems of some kinds, with loads of one regime, at the
     finest resolution alone or at all."""
@@ -237,9 +234,6 @@ def _converges(rows: Sequence[Row]) -> str:
     pairs = [(own.get(RESOLUTIONS[0]), own.get(RESOLUTIONS[-1])) for own in errors.values()]
     converged = [a is not None and b is not None and b <= max(a, CONVERGED / 10) and b < CONVERGED for a, b in pairs]
     return f"{sum(converged)} of {len(converged)} problems" if converged else "no result"
-
-
-# --- work and precision --------------------------------------------------------------------------------------------
 
 
 def _figure(rows: Sequence[Row], measure: str, solvers: Sequence[str]) -> Figure:

@@ -12,7 +12,6 @@ from comparison.command_line.options import Overwrite, check_out, complete
 
 
 def problem_ids(incomplete: str) -> list[str]:
-    """Completion of a problem's id: the shipped problems."""
     from bent_beam_programs.open_benchmark.problem import shipped_ids
 
     return complete(list(shipped_ids()), incomplete)

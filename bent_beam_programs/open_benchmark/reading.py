@@ -94,9 +94,6 @@ def _history(source: Path) -> Result:
     return result_from_history(ImpactHistory.load(source))
 
 
-# --- NPZ -----------------------------------------------------------------------------------------------------------
-
-
 def _npz(source: Path) -> Result:
     _check_directory(source)
     found, where = {}, "is not a readable NPZ file"
@@ -128,9 +125,6 @@ def _check_directory(source: Path) -> None:
     size = int.from_bytes(tail[end + 12 : end + 16], "little")
     if end >= 0 and (size > MOST_DIRECTORY or tail[max(end - 20, 0) : end].startswith(b"PK\x06\x07")):
         raise ResultError(f"its table of contents is longer than {MOST_DIRECTORY} bytes")
-
-
-# --- CSV beside JSON -----------------------------------------------------------------------------------------------
 
 
 def _table(source: Path) -> Result:

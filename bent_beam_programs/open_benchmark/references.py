@@ -26,7 +26,6 @@ BOUNCES = Path(__file__).with_name("bounce_reference.json")
 REFERENCES = Path(__file__).with_name("references.json")
 SCHEMA = "beam-impact-references/2"
 POWERS = {"time": 1.0, "fourth root of time": 0.25}  # of the variable that J(t) is a piecewise polynomial of
-
 stored = cache(read)
 Array = NDArray[np.float64]
 
@@ -79,5 +78,4 @@ def _bounce(asked: Problem) -> Reference:
 def _restitution(asked: Problem) -> tuple[float | None, float | None]:
     from bent_beam_programs.open_benchmark.exact import whole_impact
 
-    value, error = whole_impact(asked)["restitution"] if asked.damping > 0.0 else (None, None)
-    return value, error
+    return tuple(whole_impact(asked)["restitution"]) if asked.damping > 0.0 else (None, None)

@@ -29,14 +29,9 @@ def _main() -> None:
     lines = ",\n".join(f"  {json.dumps(name)}: {json.dumps(one)}" for name, one in shipped.items())
     write_atomically(PROBLEMS, f'{{"schema": {json.dumps(PROBLEM_SCHEMA)}, "problems": {{\n{lines}\n}}}}\n')
     known = {name: computed(problem(name)) for name in SHIPPED if problem(name).kind != "bounce"}
-    write(
-        REFERENCES,
-        "exact values, and J(t) as polynomials of (variable - break), the highest power first",
-        "python -m bent_beam_programs.open_benchmark.release",
-        ("theory",),
-        {"schema": SCHEMA},
-        {"schema": SCHEMA, "problems": known},
-    )
+    what = "exact values, and J(t) as polynomials of (variable - break), the highest power first"
+    made_by, schema = "python -m bent_beam_programs.open_benchmark.release", {"schema": SCHEMA}
+    write(REFERENCES, what, made_by, ("theory",), schema, schema | {"problems": known})
 
 
 if __name__ == "__main__":

@@ -98,9 +98,6 @@ class Result:
             yield float(self.snap_tau[k]), x[order], values[k][order]
 
 
-# --- validation ----------------------------------------------------------------------------------------------------
-
-
 def result_from_fields(fields: Mapping[str, Any]) -> Result:
     """A result from its fields by name. Raises :class:`ResultError`."""
     stated = _text(fields, "outcome")

@@ -55,9 +55,6 @@ def score(result: Result, base: Result | None = None) -> Score:
     return _judged(replace(found, measured=measured), result)
 
 
-# --- λ₀, r₀, λ₁, r₁ ------------------------------------------------------------------------------------------------
-
-
 def _estimates(result: Result, base: Result | None) -> dict[str, Number]:
     """λ₀ and r₀ of the base or of the result itself, λ₁ and r₁ where there is a base. A number that neither exceeds its
     bar nor is held against a larger one is none."""
@@ -104,9 +101,6 @@ def _moments(result: Result, *, load: float = 0.0, lambda0: float = 0.0, sign: f
     )
 
 
-# --- measures without a front ----------------------------------------------------------------------------------------
-
-
 def _ladder(result: Result) -> dict[str, Any]:
     """The impulse against the closed form, the restitution of a whole impact, or the largest force and when it acts."""
     asked, exact = result.problem, reference(result.problem)
@@ -142,9 +136,6 @@ def _largest_force(result: Result) -> tuple[float, float]:
     return float(np.polyval(fit, top)), float(when[k]) + top
 
 
-# --- the judge -----------------------------------------------------------------------------------------------------
-
-
 def _judged(found: Score, result: Result) -> Score:
     """What is seen, the judge's additions to the outcome, and the verdict."""
     front = found.measured.get("lambda0", Number()).value or 0.0 if result.problem.kind == "leading" else 0.0
@@ -178,7 +169,6 @@ def _of_numbers(found: Score) -> list[Symptom]:
     return shown
 
 
-# --- causes: named only where the first symptom has one cause alone -------------------------------------------------
 #
 # A wall on springs pushes where it is penetrated, and by as much. A thin first front throws the zone off the wall as a
 # whole. Sums are wrong where momentum alone is violated. Everything else has several causes, and none is named.
@@ -242,8 +232,6 @@ def _causes(result: Result, found: Score) -> tuple[Finding, ...]:
     compared = any(number.difference is not None for number in found.measured.values())
     return (Finding("clean"),) if compared and not found.symptoms else ()
 
-
-# --- several resolutions of one code ---------------------------------------------------------------------------------
 
 SAME = 1e-6  # of numbers: no two meshes agree so well
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -51,9 +51,7 @@ def score(
             print(printable(f"error: {named}"), file=sys.stderr)
             code = 2
     found = resolution_ignored(found)
-    document: dict[str, Any] = found[0].to_dict()
-    if len(found) > 1:
-        document = {"results": [s.to_dict() for s in found]}
+    document = found[0].to_dict() if len(found) == 1 else {"results": [s.to_dict() for s in found]}
     readable = [s for s in found if s.outcome != "invalid"]
     if as_json or readable:
         emit(document, as_json, lambda: "\n\n".join(_text(s) for s in readable))
@@ -61,9 +59,8 @@ def score(
 
 
 def _text(found: Score) -> str:
-    lines = [
-        f"{found.problem}: {found.outcome}" + ("" if found.completed or not found.reason else f" ({found.reason})")
-    ]
+    why = "" if found.completed or not found.reason else f" ({found.reason})"
+    lines = [f"{found.problem}: {found.outcome}{why}"]
     for name, value in found.measured.items():
         exact = "" if value.theory is None else f", exact {value.theory:.8g}"
         if name in found.reference:

@@ -23,9 +23,7 @@ NODES, GAPS = "node_x and node_impulse", "x, snap_tau and snap_gap"
 AHEAD = 5.0  # √τ short of the far end, or 3 ahead of the front: hardly a wave has come there
 STEEP = 0.5  # κ/ν, the least that an error of curvature is held against: waves ahead hide a smaller one
 OWN = 0.5  # the share of J beyond which a fall is no pull
-
 Seen = tuple[float, str] | tuple[float, str, float] | None  # figure, where, and a limit of its own
-Deficit = Callable[[Array, float, Array], Array]  # of x, τ and what a snapshot has there
 
 
 def _at(x: float, tau: float) -> str:
@@ -65,9 +63,6 @@ def _one_side(result: Result) -> tuple[Array, Array, float] | None:
     if x.size < 2 or impulse.sum() <= 0.0 or np.any(np.diff(x) <= 0.0):
         return None
     return x, impulse, 2.0 * float(x @ impulse) / float(impulse.sum())
-
-
-# --- what no wall, no beam and no sum may do -------------------------------------------------------------------------
 
 
 def _smooth(result: Result, _: float = 0.0) -> Seen:
@@ -148,7 +143,8 @@ def _displacement(result: Result, _: float = 0.0) -> Seen:
     return _lost(result, "snap_gap", until, lambda x, tau, gap: gap - _free(result.problem, x, tau)[0], 0.03)
 
 
-def _lost(result: Result, of: str, series: Array, deficit: Deficit, least: float) -> Seen:
+def _lost(result: Result, of: str, series: Array, deficit: Callable[..., Array], least: float) -> Seen:
+    """deficit : of x, τ and what a snapshot has there."""
     pairs = [(when, _over_beam(x, deficit(x, when, values))) for when, x, values in result.snapshots(of)]
     given = [(lost, float(np.interp(when, result.tau, series))) for when, lost in pairs if when >= result.tau[-1] / 2.0]
     ratios = [lost / gave - 1.0 for lost, gave in given if gave != 0.0]
@@ -156,9 +152,6 @@ def _lost(result: Result, of: str, series: Array, deficit: Deficit, least: float
         return None
     figure, noise = float(np.median(ratios)), (_noise_in_time(result) or (0.0,))[0]
     return figure, f"the beam has lost {1.0 + figure:.3g} of what the wall gave", max(least, 2.5 * noise)
-
-
-# --- contact ---------------------------------------------------------------------------------------------------------
 
 
 def _penetration(result: Result, _: float = 0.0) -> Seen:
@@ -186,9 +179,6 @@ def _far_end(result: Result, _: float = 0.0) -> Seen:
     when, x, gap = found[-1]
     away = np.abs(gap - _free(result.problem, x, when)[0]) / when
     return float(away[np.abs(x) > 0.9 * x.max()].max()), f"the last tenth of {x.max():.3g} l*, τ = {when:.3g}"
-
-
-# --- how smooth, and how spread --------------------------------------------------------------------------------------
 
 
 def _noise_in_time(result: Result, _: float = 0.0) -> tuple[float, str] | None:
@@ -249,16 +239,14 @@ class Reading(NamedTuple):
 
 
 FREE = ("leading", "point")
-FRONTS = (*FREE, "first")
+FRONTS, BEAMS = (*FREE, "first"), (*FREE, "bounce", "stopped-beam")
 READINGS = {
     "too_smooth": Reading("decimals to which J is c + a√τ", 12.0, "J", FREE, _smooth),
     "impulse_falls": Reading("fall of the wall's impulse / J", 5.0 * PART, "J", (), _falls),
     "motion": Reading("ahead of all waves the beam does not move as the problem's", 0.03, GAPS, FREE, _motion),
     "far_end": Reading("the far end has left the free motion / V₀τ", 0.1, GAPS, FREE, _far_end),
     "push_at_a_gap": Reading("push across an open gap / push", 0.1, f"{NODES}, {GAPS}", FRONTS, _push_at_a_gap),
-    "energy": Reading(
-        "energy gained / JV₀", PART, "E_kin and E_el, or snap_v", (*FREE, "bounce", "stopped-beam"), _energy
-    ),
+    "energy": Reading("energy gained / JV₀", PART, "E_kin and E_el, or snap_v", BEAMS, _energy),
     "pull": Reading("tensile impulse / J", PART, f"J_minus, or {NODES}", (), _pull),
     "momentum": Reading("momentum that the beam lost / J, less 1", 0.015, "snap_v", FRONTS, _momentum),
     "displacement": Reading("the same of gaps and ∫J dτ, less 1", 0.03, GAPS, FREE, _displacement),

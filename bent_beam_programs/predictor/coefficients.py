@@ -74,7 +74,6 @@ def _quadratic(kappa: float, sign: float) -> dict[str, float]:
 
 
 def _second(kappa: Array, name: str, sign: float) -> Array:
-    """A factor of :func:`_quadratic` over an array."""
     return np.array([_quadratic(float(one), sign)[name] for one in kappa])
 
 

@@ -29,16 +29,12 @@ SIMULATION = ("elements.js", "contact.js", "solver.js", "answer.js", "worker.js"
 PAGE = ("answer.js", "draw.js", "form.js", "words.js", "plots.js", "motion.js", "view.js")
 WORDS = {"regimes": REGIMES, "limits": LIMITS, "before": BEFORE, "beams": BEAMS}
 """What ``bentbeam predict`` says of contact, theory and beam."""
-
-
 DOUBTS = {"wide": WIDE, "least_restitution": LEAST_RESTITUTION, "steep": STEEP, "stubby": STUBBY,
           "straightened": STRAIGHTENED}  # fmt: skip
 """From when on ``bentbeam bounce`` warns."""
 BARS = {"factor": FACTOR, "least": LEAST, "light": LIGHT, "leastLight": LEAST_LIGHT, "chatter": CHATTER,
         "returns": RETURNS, "ratios": DAMPING_RATIOS, "soft": SOFT}  # fmt: skip
 """Of its error bars, the damping ratios that it takes where none is stated, and on which walls it takes none."""
-
-
 CONSTANTS = {
     validity: ("TOLERANCE", "DISTANCE", "SWING", "FLAT", "SMALL_CHANGE", "FLATTEST_SOLVED", "SLOPE_LIMIT"),
     shear: ("FORGOTTEN", "FLATTEST_SHEARED"),
@@ -56,7 +52,6 @@ def constants() -> dict[str, float]:
 
 
 def script(names: tuple[str, ...] = (*MODEL, *PAGE)) -> str:
-    """The scripts, after the numbers and words that they read."""
     data = {"COEFFICIENTS": coefficients(), "VALIDITY": constants(), "WORDS": WORDS, "DOUBTS": DOUBTS, "BARS": BARS}
     return _script(data, names)
 

@@ -108,8 +108,7 @@ def widest(shown: Shown) -> float:
 def show(shown: Shown, method: Method, store: RunStore | None = None) -> ShownImpact:
     """Simulate with ``method`` and reduce, or find it in ``store``. Raises ``ValueError`` for what it refuses."""
     impact = shown.impact
-    reason = method.refuses(impact)
-    if reason:
+    if reason := method.refuses(impact):
         raise ValueError(reason)
     end = END * impact.time_scale
 
@@ -140,11 +139,10 @@ def show_all(
 ) -> tuple[list[ShownImpact], list[str]]:
     """Every impact by every method, impact by impact, and a sentence for each that could not be shown."""
     calls = [(shown, method, store) for shown in wanted for method in methods]
-
-    def died(i: int, why: str) -> str:
-        return f"{calls[i][1].label}, {calls[i][0].title}: {why}"
-
-    each = run_all(_attempted, calls, jobs=jobs, progress=progress, on_death=died)
+    each = run_all(
+        _attempted, calls, jobs=jobs, progress=progress,
+        on_death=lambda i, why: f"{calls[i][1].label}, {calls[i][0].title}: {why}",
+    )  # fmt: skip
     return [e for e in each if isinstance(e, ShownImpact)], [e for e in each if isinstance(e, str)]
 
 
@@ -175,12 +173,6 @@ def theory_of(shown: Shown) -> dict[str, Any]:
     }
 
 
-def kept_instants(time: Array) -> NDArray[np.int64]:
-    """Saved instants nearest to :data:`FRAMES` ones even in √t, for the map of forces."""
-    wanted = np.linspace(START, 1.0, FRAMES) ** 2 * time[-1]
-    return np.unique(np.maximum(np.abs(time[None, :] - wanted[:, None]).argmin(axis=1), 1))
-
-
 def reduce_history(history: ImpactHistory, shown: Shown) -> dict[str, Any]:
     """What the page needs of a history, JSON-ready, in units of the fast layer, at the times of :func:`frames`.
 
@@ -188,10 +180,8 @@ def reduce_history(history: ImpactHistory, shown: Shown) -> dict[str, Any]:
     ``pressure`` of the zone; ``lift`` over V₀t; ``map``: force per length in bins of x between kept instants;
     ``energy``: those of :data:`ENERGIES` that the method reports, as changes since the first saved instant.
     """
-    impact = history.impact
-    found = moments(history)
-    tau, wanted, x = found.tau, frames(), places(shown)
-    root = np.sqrt(tau)
+    impact, found, wanted, x = history.impact, moments(history), frames(), places(shown)
+    tau, root = found.tau, np.sqrt(found.tau)
     reaction = np.gradient(found.impulse, root) / (2.0 * np.sqrt(np.maximum(tau, 1e-300)))  # I ~ √τ
     gap = np.zeros((tau.size, x.size))
     for k, t in enumerate(history.time):
@@ -203,7 +193,8 @@ def reduce_history(history: ImpactHistory, shown: Shown) -> dict[str, Any]:
     def at(values: Array) -> Array:
         return np.interp(wanted, tau, values)
 
-    instants = kept_instants(history.time)
+    even = np.linspace(START, 1.0, FRAMES) ** 2 * history.time[-1]  # in √t
+    instants = np.unique(np.maximum(np.abs(history.time[None, :] - even[:, None]).argmin(axis=1), 1))
     edges = np.linspace(0.0, widest(shown), BINS + 1)
     energy = impact.mass_per_length * impact.length_scale * impact.velocity**2
     force = {
@@ -253,18 +244,9 @@ def acceleration_rows(impacts: Sequence[ShownImpact]) -> list[dict[str, str]]:
         if impact.shown.epsilon == 0.0 or impact.label not in plain:
             continue
         found, base = impact.data, plain[impact.label].data
-        zone, reaction = (
-            true_minus(f"{100 * (found[name][-1] / base[name][-1] - 1):+.0f} %") for name in ("front", "reaction")
-        )
-        rows.append(
-            {
-                "impact": f"{impact.shown.title}, ε = {impact.shown.epsilon:g}",
-                "label": impact.label,
-                "zone": zone,
-                "reaction": reaction,
-                "uniform": true_minus(f"{found['pressure'][-1]:.2f}"),
-                "theory": f"{impact.shown.pressure:.2f}",
-                "gap": percent(max(found["lift"])),
-            }
-        )
+        change = {name: 100 * (found[name][-1] / base[name][-1] - 1) for name in ("front", "reaction")}
+        row = {"impact": f"{impact.shown.title}, ε = {impact.shown.epsilon:g}", "label": impact.label}
+        row |= {"zone": true_minus(f"{change['front']:+.0f} %"), "reaction": true_minus(f"{change['reaction']:+.0f} %")}
+        row |= {"uniform": true_minus(f"{found['pressure'][-1]:.2f}"), "theory": f"{impact.shown.pressure:.2f}"}
+        rows.append(row | {"gap": percent(max(found["lift"]))})
     return rows

@@ -16,6 +16,7 @@ import os
 import platform
 import time as clock
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -121,24 +122,19 @@ def warm_up(methods: Sequence[Method]) -> None:
     """
     impact = SHOWN[0].impact
     for method in methods:
-        try:
+        with suppress(*ANY_FAILURE):  # whatever a method of somebody else's raises is the reason of its rows
             (refined(method, 0.25) or method).simulate(impact, end_time=END * impact.time_scale, save=8)
-        except ANY_FAILURE:  # whatever a method of somebody else's raises is the reason of its rows
-            continue
 
 
 def render(content: Content) -> str:
     """The whole page as text. Nothing in it refers to anything outside it; every string is escaped."""
-    environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(TEMPLATES),
-        autoescape=True,
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
+    rules: dict[str, Any] = {"undefined": jinja2.StrictUndefined, "trim_blocks": True, "lstrip_blocks": True}
+    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, **rules)
     environment.filters |= {"percent": percent, "picture": picture}
     leading, first = leading_rows(content.rows), first_order_rows(content.rows)
     methods, groups = labels(content.rows), grouped(content.impacts)
+    settings = {f"Method: {row.label}": row.settings for row in content.rows}
+    settings |= {f"Shown impact: {i.label}, {i.shown.title}": dict(i.settings) for i in content.impacts}
     return environment.get_template("report.html.j2").render(
         content=content,
         headline=headline(leading, first, len(failures(content.rows))),
@@ -156,7 +152,7 @@ def render(content: Content) -> str:
         pictures={file.stem: picture(file) for file in content.pictures},
         caption_of=lambda name, title: f"{name.replace('fig-', 'Fig. ').replace('extra-', 'Its ')}: {title}",
         facts=facts(content),
-        settings=settings(content),
+        settings={title: json.dumps(value, indent=1, ensure_ascii=False) for title, value in settings.items()},
         data={"energies": ENERGIES, "impacts": [impact_data(runs) for runs in groups.values()]},
         script=Markup((TEMPLATES / "report.js").read_text(encoding="utf-8")),
         style=Markup((TEMPLATES / "report.css").read_text(encoding="utf-8")),
@@ -175,16 +171,14 @@ def picture(file: Path) -> str:
 
 def impact_data(runs: Sequence[ShownImpact]) -> dict[str, Any]:
     """An impact as the page's script reads it: theory and every method on one timeline."""
-    colours = marks(run.label for run in runs)
-    drawn = [{name: values for name, values in run.data.items() if name != "map"} for run in runs]  # it is a still
-    return {
-        "theory": theory_of(runs[0].shown),
-        "methods": [{"label": r.label, "colour": colours[r.label]["color"]} | d for r, d in zip(runs, drawn)],
-    }
+    colours, methods = marks(run.label for run in runs), []
+    for run in runs:
+        drawn = {name: values for name, values in run.data.items() if name != "map"}  # it is a still
+        methods.append({"label": run.label, "colour": colours[run.label]["color"]} | drawn)
+    return {"theory": theory_of(runs[0].shown), "methods": methods}
 
 
 def facts(content: Content) -> dict[str, str]:
-    """Versions, machine and times."""
     return {
         "written": datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC"),
         "rows": f"{len(content.rows)} asked for, {len(failures(content.rows))} failed",
@@ -197,10 +191,3 @@ def facts(content: Content) -> dict[str, str]:
         "Python": platform.python_version(),
         **versions(),
     }
-
-
-def settings(content: Content) -> dict[str, str]:
-    """Settings of the runs: title → JSON text."""
-    found: dict[str, Any] = {f"Method: {row.label}": row.settings for row in content.rows}
-    found |= {f"Shown impact: {i.label}, {i.shown.title}": dict(i.settings) for i in content.impacts}
-    return {title: json.dumps(value, indent=1, ensure_ascii=False) for title, value in found.items()}

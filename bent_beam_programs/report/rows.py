@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from statistics import median
 from typing import Any
 
@@ -45,9 +46,7 @@ def report_questions(methods: Sequence[Method], refines: Sequence[float] = REFIN
 
 def tolerance(what: str, kappa_over_nu: float) -> float:
     """The relative error that this project holds itself to (its regression tests do)."""
-    if what in ("lambda0", "r0"):
-        return 0.001
-    return 0.03 if kappa_over_nu < 0.3 else 0.01
+    return 0.001 if what in ("lambda0", "r0") else 0.03 if kappa_over_nu < 0.3 else 0.01
 
 
 @dataclass(frozen=True)
@@ -65,7 +64,6 @@ class Cell:
 
     @property
     def bar(self) -> float:
-        """The error bar, relative."""
         return self.number.relative_bar(HELD_AGAINST[self.what]) or 0.0
 
     @property
@@ -76,7 +74,6 @@ class Cell:
 
     @property
     def value_text(self) -> str:
-        """Value ± error bar."""
         return true_minus(str(self.number).replace("± ", "±\u00a0"))
 
     @property
@@ -108,16 +105,14 @@ class TableRow:
 
     @property
     def first_text(self) -> str:
-        """(α, ψ, χ, N) with proper minus signs."""
+        """(α, ψ, χ, N)."""
         return true_minus("(" + ", ".join(f"{v:g}" for v in self.row.first) + ")")
 
 
 def table_row(row: MatchRow) -> TableRow:
     """A row with the cells that it is about: λ₁ and r₁ where it has them, λ₀ and r₀ otherwise."""
-    numbers = row.compared().items()
-    return TableRow(
-        row, tuple(Cell(n, c, tolerance(n, row.kappa_over_nu)) for n, c in numbers if c.covered is not None)
-    )
+    numbers = {name: number for name, number in row.compared().items() if number.covered is not None}
+    return TableRow(row, tuple(Cell(n, c, tolerance(n, row.kappa_over_nu)) for n, c in numbers.items()))
 
 
 def labels(rows: Iterable[MatchRow]) -> list[str]:
@@ -127,19 +122,14 @@ def labels(rows: Iterable[MatchRow]) -> list[str]:
 
 
 def _at_own_resolution(rows: Iterable[MatchRow], *, first: bool) -> list[TableRow]:
+    """Rows of leading or first order at the methods' own resolution, by κ/ν, (α, ψ, χ, N) and method."""
     chosen = [r for r in rows if r.of_first_order == first and r.refine == 1.0 and r.reason is None]
     order = {label: i for i, label in enumerate(labels(chosen))}
     return [table_row(r) for r in sorted(chosen, key=lambda r: (r.kappa_over_nu, r.first, order[r.label]))]
 
 
-def leading_rows(rows: Iterable[MatchRow]) -> list[TableRow]:
-    """Rows of leading order at the methods' own resolution, by κ/ν and method."""
-    return _at_own_resolution(rows, first=False)
-
-
-def first_order_rows(rows: Iterable[MatchRow]) -> list[TableRow]:
-    """Rows of first order at the methods' own resolution, by κ/ν, (α, ψ, χ, N) and method."""
-    return _at_own_resolution(rows, first=True)
+leading_rows = partial(_at_own_resolution, first=False)
+first_order_rows = partial(_at_own_resolution, first=True)
 
 
 def percent(value: float) -> str:
@@ -150,43 +140,31 @@ def percent(value: float) -> str:
     return f"{math.ceil(size / step - 1e-9) * step:.{digits}f} %"
 
 
-def bands(leading: Sequence[TableRow]) -> list[tuple[str, list[TableRow]]]:
-    """Rows of leading order by range of κ/ν, named."""
-    named = []
-    for thin in (False, True):
-        if rows := [r for r in leading if (r.row.kappa_over_nu < THIN) == thin]:
-            ends = dict.fromkeys(f(rows, key=lambda r: r.row.kappa_over_nu).ratio_text for f in (min, max))
-            named.append((f"leading order, κ/ν = {' to '.join(ends)}", rows))
-    return named
-
-
 def summary(leading: Sequence[TableRow], first: Sequence[TableRow]) -> list[dict[str, Any]]:
     """A row for each order, range of κ/ν and method that has a number.
 
     rows, numbers : how many; within, covered : numbers inside the tolerance, and with theory inside their error bar;
     largest, median : of their |error|, relative; seconds : the median row's.
     """
+    orders: list[tuple[str, Sequence[TableRow]]] = []
+    for thin in (False, True):
+        if rows := [r for r in leading if (r.row.kappa_over_nu < THIN) == thin]:
+            ends = dict.fromkeys(f(rows, key=lambda r: r.row.kappa_over_nu).ratio_text for f in (min, max))
+            orders.append((f"leading order, κ/ν = {' to '.join(ends)}", rows))
     found = []
-    for order, rows in (*bands(leading), ("first order", first)):
-        for label in labels(r.row for r in rows):
-            mine = [r for r in rows if r.row.label == label]
+    for order, every in (*orders, ("first order", first)):
+        for label in labels(r.row for r in every):
+            mine = [r for r in every if r.row.label == label]
             cells = [c for r in mine for c in r.cells]
+            if not cells:
+                continue
             errors = [abs(c.error) for c in cells]
             seconds = [r.row.seconds for r in mine if r.row.seconds is not None]
-            if cells:
-                found.append(
-                    {
-                        "order": order,
-                        "label": label,
-                        "rows": len(mine),
-                        "numbers": len(cells),
-                        "largest": max(errors),
-                        "median": median(errors),
-                        "within": sum(abs(c.error) <= c.tolerance for c in cells),
-                        "covered": sum(bool(c.number.covered) for c in cells),
-                        "seconds": median(seconds) if seconds else None,
-                    }
-                )
+            row: dict[str, Any] = {"order": order, "label": label, "rows": len(mine), "numbers": len(cells)}
+            row |= {"largest": max(errors), "median": median(errors)}
+            row |= {"within": sum(abs(c.error) <= c.tolerance for c in cells)}
+            row |= {"covered": sum(bool(c.number.covered) for c in cells)}
+            found.append(row | {"seconds": median(seconds) if seconds else None})
     return found
 
 

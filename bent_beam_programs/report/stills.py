@@ -14,19 +14,15 @@ from comparison.figures import style
 
 def grouped(impacts: Sequence[ShownImpact]) -> dict[Shown, list[ShownImpact]]:
     """The runs of each impact, in order."""
-    found: dict[Shown, list[ShownImpact]] = {}
-    for impact in impacts:
-        found.setdefault(impact.shown, []).append(impact)
-    return found
+    return {shown: [i for i in impacts if i.shown == shown] for shown in dict.fromkeys(i.shown for i in impacts)}
 
 
 def draw_maps(impacts: Sequence[ShownImpact], out: Path) -> list[Path]:
     """Reaction per length over place and time: an impact a column, a method a row. There is at least one impact."""
     groups = grouped(impacts)
     labels = list(dict.fromkeys(i.label for i in impacts))
-    with style.figure(
-        len(labels), len(groups), width=style.PAGE, height=1.9 * len(labels) + 0.4, sharey=True, squeeze=False
-    ) as (fig, axes):
+    size = {"width": style.PAGE, "height": 1.9 * len(labels) + 0.4}
+    with style.figure(len(labels), len(groups), **size, sharey=True, squeeze=False) as (fig, axes):
         for column, (shown, runs) in enumerate(groups.items()):
             axes[0][column].set_title(shown.title, fontsize=6.5)
             axes[-1][column].set_xlabel(r"$x/l_*$  (1)")
@@ -48,9 +44,8 @@ def draw_acceleration(impacts: Sequence[ShownImpact], out: Path) -> list[Path]:
     """λ_c/√τ and one end's reaction times √τ of all impacts: theory to first order, and every method."""
     marks = style.marks(i.label for i in impacts)
     with style.figure(1, 2, width=style.PAGE, height=2.8) as (fig, axes):
-        for axis, what, power, symbol in zip(
-            axes, ("front", "reaction"), (-0.5, 0.5), (r"$\lambda_c/\sqrt{\tau}$", r"$(R/2)\sqrt{\tau}$")
-        ):
+        drawn = (("front", -0.5, r"$\lambda_c/\sqrt{\tau}$"), ("reaction", 0.5, r"$(R/2)\sqrt{\tau}$"))
+        for axis, (what, power, symbol) in zip(axes, drawn):
             for i, (shown, runs) in enumerate(grouped(impacts).items()):
                 theory, dash = theory_of(shown), ("-", "--", ":")[i % 3]
                 time = np.array(theory["time"])
@@ -59,8 +54,7 @@ def draw_acceleration(impacts: Sequence[ShownImpact], out: Path) -> list[Path]:
                 for j, run in enumerate(runs):
                     mark = {**marks[run.label], "label": None}
                     axis.plot(time[2 * j :: 7], (np.array(run.data[what]) * time**power)[2 * j :: 7], **mark)
-            axis.set_xlabel(r"$\tau = t/t_*$  (1)")
-            axis.set_ylabel(f"{symbol}  (1)")
+            axis.set(xlabel=r"$\tau = t/t_*$  (1)", ylabel=f"{symbol}  (1)")
         for mark in marks.values():
             axes[1].plot([], [], **mark)
         fig.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=3, fontsize=6)

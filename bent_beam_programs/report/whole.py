@@ -46,17 +46,14 @@ def pipe_prediction(file: Path = PIPE, store: RunStore | None = None) -> dict[st
         for by, numbers in (("theory", row), ("simulation", row.get("simulation")))
         if numbers is not None
     ]
-    whole = document["whole_impact"] or {}
-    yields = document["yield_stress"]
+    whole, yields = document["whole_impact"] or {}, document["yield_stress"]
+    ratios = whole.get("over_damping") or ()
     return {
         "case": case,
         "rows": rows,
         "validity": validity_text(document),
         "whole": [words.format(text(whole.get(key), unit)) for key, (words, unit) in WHOLE.items()],
-        "damping": [
-            (f"{100.0 * row['damping_ratio']:g}", text(row["peak_stress"], 1e6))
-            for row in whole.get("over_damping") or ()
-        ],
+        "damping": [(f"{100.0 * r['damping_ratio']:g}", text(r["peak_stress"], 1e6)) for r in ratios],
         "yield_stress": None if yields is None else f"{yields / 1e6:.4g}",
     }
 

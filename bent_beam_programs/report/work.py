@@ -44,11 +44,10 @@ class Measurement:
     @property
     def command(self) -> str:
         """The same rows from the command line."""
-        words = ["bentbeam match", *(f"--methods cases/methods/{file}" for file in self.methods)]
-        words.append(f"--kappa-over-nu {KAPPA:g}")
-        words += [f"--first-order={','.join(f'{v:g}' for v in first[:3])}" for first in self.firsts]
-        words.append(f"--refine {','.join(f'{r:g}' for r in self.refines)} --limit {self.limit:g} --jobs 2 --out out")
-        return " ".join(words)
+        methods = " ".join(f"--methods cases/methods/{file}" for file in self.methods)
+        firsts = "".join(f" --first-order={','.join(f'{v:g}' for v in first[:3])}" for first in self.firsts)
+        asked = f"bentbeam match {methods} --kappa-over-nu {KAPPA:g}{firsts}"
+        return f"{asked} --refine {','.join(f'{r:g}' for r in self.refines)} --limit {self.limit:g} --jobs 2 --out out"
 
 
 MEASUREMENTS = (
@@ -65,14 +64,11 @@ def store_measurement(measurement: Measurement, *, jobs: int = 1) -> Path:
     asked = questions(methods, [KAPPA], measurement.firsts, measurement.refines)
     rows = match(asked, store=RunStore.usual(), jobs=jobs, limit=measurement.limit)
     draw_work_precision(rows, STORED)
-    return stored.write(
-        STORED / f"{measurement.name}.json",
-        f"work and precision: {measurement.title}",
-        f"python -m bent_beam_programs.report.work {measurement.name}",
-        PACKAGES,
-        {row.label: row.settings for row in rows},
-        {"command": measurement.command, "rows": [{name: row.to_dict()[name] for name in KEPT} for row in rows]},
-    )
+    file, what = STORED / f"{measurement.name}.json", f"work and precision: {measurement.title}"
+    made_by = f"python -m bent_beam_programs.report.work {measurement.name}"
+    settings = {row.label: row.settings for row in rows}
+    data = [{name: row.to_dict()[name] for name in KEPT} for row in rows]
+    return stored.write(file, what, made_by, PACKAGES, settings, {"command": measurement.command, "rows": data})
 
 
 def stored_measurements() -> list[dict[str, Any]]:
@@ -81,8 +77,7 @@ def stored_measurements() -> list[dict[str, Any]]:
     """
     found = []
     for measurement in MEASUREMENTS:
-        file = STORED / f"{measurement.name}.json"
-        document = stored.read(file)
+        document = stored.read(file := STORED / f"{measurement.name}.json")
         lost = {row["label"]: row["reason"] for row in document["rows"] if row["reason"]}
         shown = {"title": measurement.title, "lost": list(lost.items()), "picture": file.with_suffix(".png")}
         found.append(document | shown | {"stale": stored.is_stale(file)})
@@ -95,9 +90,8 @@ def main(names: Sequence[str]) -> None:
     for name in names:
         if name not in known:
             raise SystemExit(f"{name} is not a measurement (known: {', '.join(known)})")
-    for name, measurement in known.items():
-        if not names or name in names:
-            print(store_measurement(measurement, jobs=os.cpu_count() or 1))
+    for name in names or known:
+        print(store_measurement(known[name], jobs=os.cpu_count() or 1))
 
 
 if __name__ == "__main__":

@@ -11,7 +11,6 @@ from comparison.command_line.options import Jobs, Json, Quiet, complete, emit, p
 
 
 def item_names(incomplete: str) -> list[str]:
-    """Completion of figure and table numbers."""
     from bent_beam_programs.thesis.gallery import ITEMS
 
     return complete(list(ITEMS), incomplete)

@@ -13,6 +13,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import partial
+from itertools import chain, repeat
 from pathlib import Path
 from typing import Any
 
@@ -75,26 +76,20 @@ class Sheet:
     ) -> Iterator[tuple[Figure, Any]]:
         """``style.figure``, a page wide where it has columns, and kept for :meth:`save`.
 
-        texts : beside the letters that several axes get. legend : columns of one legend below (0: none).
+        Several axes get ``letters``, row by row, also in the CSV, and ``texts`` beside them. legend : columns of one
+        legend below (0: none).
         """
         width = style.PAGE if columns > 1 else style.COLUMN
         with style.figure(rows, columns, **{"width": width} | kwargs) as (self.figure_, axes):
             yield self.figure_, axes
             if letters and np.size(axes) > 1:
-                self._letter(axes, texts)
+                for axis, letter, text in zip(np.ravel(axes), "abcdefgh", chain(texts, repeat(""))):
+                    self.panels[id(axis)] = letter
+                    style.panel_label(axis, f"({letter})")
+                    place = {"xycoords": "axes fraction", "xytext": (17, 0), "textcoords": "offset points"}
+                    axis.annotate(text, (0.0, 1.02), **place, ha="left", va="bottom", fontsize=7.5)
             if legend:
                 legend_below(self.figure_, axes, legend, fontsize=legend_size)
-
-    def _letter(self, axes: Any, texts: Sequence[str]) -> None:
-        """Name the axes (a), (b) …, row by row, in the picture and in the CSV; ``texts`` stand beside the letters."""
-        for i, axis in enumerate(np.ravel(axes)):
-            self.panels[id(axis)] = "abcdefgh"[i]
-            style.panel_label(axis, f"({self.panels[id(axis)]})")
-            if i < len(texts):
-                axis.annotate(
-                    texts[i], (0.0, 1.02), xycoords="axes fraction", xytext=(17, 0), textcoords="offset points",
-                    ha="left", va="bottom", fontsize=7.5,
-                )  # fmt: skip
 
     def line(self, axis: Axes, x: ArrayLike, y: ArrayLike, *, series: str, legend: bool = True, **drawn: Any) -> None:
         """Plot one curve and remember it. ``drawn`` is a style of :mod:`comparison.figures.style` or matplotlib's."""
@@ -204,11 +199,7 @@ def item(name: str, *, beside: str = "", **parts: str) -> Callable[[Draw], Draw]
 def items(module: str, draw: Callable[..., None], rows: Iterable[tuple[Any, ...]]) -> None:
     """Register figures that one function draws: a row is id, title, caption, and what ``draw`` gets after the sheet."""
     for name, title, caption, *given in rows:
-        ITEMS[name] = Item(name, title, caption, module, partial(_draw_with, draw, given))
-
-
-def _draw_with(draw: Callable[..., None], given: Sequence[Any], sheet: Sheet) -> None:
-    draw(sheet, *given)
+        ITEMS[name] = Item(name, title, caption, module, partial(lambda given, sheet: draw(sheet, *given), given))
 
 
 def order(name: str) -> tuple[int, int, int, str]:

@@ -27,7 +27,6 @@ from comparison.workers import run_all
 FILE = Path(__file__).resolve().parents[1] / "stored_studies" / "studies.json"
 PACKAGES = ("hermite_fe", "exudyn_models", "self_similar_fe", "bent_beam.measure", "bent_beam_programs.thesis")
 COLOURS = 256  # of a picture: a quarter of the bytes
-
 BEAM = {"bending_stiffness": 1.0, "mass_per_length": 1.0}
 
 

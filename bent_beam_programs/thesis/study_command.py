@@ -11,7 +11,6 @@ from comparison.command_line import options
 
 
 def study_names(incomplete: str) -> list[str]:
-    """Completion of the study's name."""
     from bent_beam_programs.thesis.studies import STUDIES
 
     return options.complete(["list", *STUDIES], incomplete)

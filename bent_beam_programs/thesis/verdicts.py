@@ -76,7 +76,9 @@ class Printed:
         ratio, other = f"{self.ours / float(self.printed):.3g}" if not self.axes else "–", ""
         if self.consistent is not None:
             other = f"{readable(self.consistent, 3)}: {replace(self, ours=self.consistent).verdict}"
-        cells = [self.where, self.what, shown(self.printed), readable(self.ours, 5), ratio, self.verdict]
+        long = "e" in self.printed
+        printed = readable(float(self.printed), digits(self.printed)) if long else self.printed.replace("-", "−")
+        cells = [self.where, self.what, printed, readable(self.ours, 5), ratio, self.verdict]
         return [*cells, other, self.why]
 
 
@@ -101,8 +103,3 @@ def summary(rows: Sequence[Sequence[str]]) -> str:
         f"{rest}. Numbers that test a simulation: {tested}; {runs} of them are within rounding with the lumped matrix, "
         f"{runs_other} with (3.1.8). The rest follow from formulas."
     )
-
-
-def shown(printed: str) -> str:
-    """A printed number with all of its digits."""
-    return readable(float(printed), digits(printed)) if "e" in printed else printed.replace("-", "−")

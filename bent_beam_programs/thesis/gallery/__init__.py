@@ -46,23 +46,15 @@ def listing() -> list[dict[str, str]]:
     return [{"id": i.id, "title": i.title, "caption": i.caption} for i in ITEMS.values()]
 
 
-def _kept(mark: Path, key: str) -> dict[str, Any] | None:
-    """The entry of an item that was drawn before with the same sources and formats and is still there."""
-    if not mark.is_file():
-        return None
-    kept = json.loads(mark.read_text())
-    same = kept["key"] == key and all(Path(f).is_file() for f in kept["drawn"]["files"])
-    return dict(kept["drawn"]) if same else None
-
-
 def draw_item(name: str, out: Path, formats: Sequence[str]) -> dict[str, Any]:
-    """Draw one item, or find it drawn already. Returns an entry of ``drawn``, or of ``failures`` (with "reason")."""
+    """Draw one item, unless it was drawn with the same sources and formats and is still there. Returns an entry of
+    ``drawn``, or of ``failures`` (with "reason")."""
     chosen, mark = ITEMS[name], out / ".drawn" / f"{name}.json"
     about = {"id": name, "title": chosen.title, "caption": chosen.caption}
     key = digest_of(PACKAGES, about | {"formats": sorted(formats)})
-    kept = _kept(mark, key)
-    if kept is not None:
-        return kept
+    kept: dict[str, Any] = json.loads(mark.read_text()) if mark.is_file() else {"key": None}
+    if kept["key"] == key and all(Path(f).is_file() for f in kept["drawn"]["files"]):
+        return dict(kept["drawn"])
     began = clock.perf_counter()
     sheet = Sheet()
     try:
@@ -77,7 +69,6 @@ def draw_item(name: str, out: Path, formats: Sequence[str]) -> dict[str, Any]:
 
 
 def _draw_group(names: Sequence[str], out: Path, formats: Sequence[str]) -> list[dict[str, Any]]:
-    """Items of one module, one after the other in one process."""
     return [draw_item(name, out, formats) for name in names]
 
 
@@ -104,14 +95,11 @@ def draw_all(
     groups: dict[str, list[str]] = {}
     for name in dict.fromkeys(ids):
         groups.setdefault(ITEMS[name].module, []).append(name)
-    asked = list(groups.values())
+    calls = [(names, Path(out), tuple(formats)) for names in groups.values()]
     found = run_all(
-        _draw_group,
-        [(names, Path(out), tuple(formats)) for names in asked],
-        jobs=jobs,
-        progress=progress,
-        on_death=lambda i, why: [{"id": name, "reason": why} for name in asked[i]],
-    )
+        _draw_group, calls, jobs=jobs, progress=progress,
+        on_death=lambda i, why: [{"id": name, "reason": why} for name in calls[i][0]],
+    )  # fmt: skip
     entries = sorted((entry for group in found for entry in group), key=lambda e: order(e["id"]))
     drawn = [e for e in entries if "reason" not in e]
     failures = [e for e in entries if "reason" in e]
@@ -124,7 +112,6 @@ def draw_all(
 
 
 def _index(drawn: Sequence[dict[str, Any]]) -> str:
-    """The gallery as one Markdown page."""
     parts = ["# Figures and tables of the thesis, regenerated\n"]
     for entry in drawn:
         picture, data = Path(entry["files"][0]).name, Path(entry["files"][-1]).name

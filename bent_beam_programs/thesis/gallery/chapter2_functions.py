@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from bent_beam_programs.thesis.gallery.drawing import guide, plain_line
+from bent_beam_programs.thesis.gallery.drawing import GUIDE, NIL, plain_line
 from bent_beam_programs.thesis.sheet import Sheet, item, items
 from comparison.figures import style
 from comparison.readable import readable
@@ -21,6 +21,8 @@ PUSHED = ((4.0, 0.0, 0.0), (2.0, 0.0, 0.0), (1.0, 1.0, 0.0), (1.0, 1.0, 1.0), (0
 PULLED = ((-1.0, -1.0, 0.0), (-1.0, -1.0, 1.0), (-2.0, 0.0, 0.0), (0.0, -2.0, 0.0), (-4.0, 0.0, 0.0))
 Load = tuple[float, float, float]
 SMALLEST = 0.03  # κ/ν, where r₁ and λ₁ are drawn from
+LINES = (plain_line("blue", width=1.1), plain_line("vermilion", "--"), plain_line("black", "-.", 1.1))
+OF_LAMBDA = {"xlabel": r"$\lambda$  (1)", "ylabel": r"$\varphi$  (1)"}
 
 
 @item("fig-2.2")
@@ -57,9 +59,6 @@ def plot(sheet: Sheet, x: Any, curves: Mapping[str, Any], lines: Sequence[dict[s
     return axis
 
 
-LINES = (plain_line("blue", width=1.1), plain_line("vermilion", "--"), plain_line("black", "-.", 1.1))
-
-
 @item("fig-2.3")
 def kernel_shape(sheet: Sheet) -> None:
     """The kernel H
@@ -70,7 +69,7 @@ def kernel_shape(sheet: Sheet) -> None:
     beta = np.linspace(-10.0, 10.0, 801)
     label = r"$\beta = \xi/\sqrt{\tau}$  (1)"
     axis = plot(sheet, beta, {"H": kernel.H(beta)}, (style.THEORY,), xlabel=label, ylabel=r"$H$  (1)", xlim=(-10, 10))
-    guide(axis, y=0.0)
+    axis.axhline(0.0, **NIL)
 
 
 @item("fig-2.7a")
@@ -97,10 +96,7 @@ def leading_solution(sheet: Sheet) -> None:
     found = contact_parameters(ratios)
     curves = {r"$\lambda_0$": found.lambda0, r"$r_0/\nu$": found.r0}
     labels = {"xlabel": r"$\kappa/\nu$  (1)", "ylabel": r"$\lambda_0$,  $r_0/\nu$  (1)"}
-    guide(plot(sheet, ratios, curves, LINES, **labels, xlim=(0, 1.5), ylim=(0, 6)), x=1.0)
-
-
-OF_LAMBDA = {"xlabel": r"$\lambda$  (1)", "ylabel": r"$\varphi$  (1)"}
+    plot(sheet, ratios, curves, LINES, **labels, xlim=(0, 1.5), ylim=(0, 6)).axvline(1.0, **GUIDE)
 
 
 def functions(sheet: Sheet, shown: Mapping[str, str], largest: float = 6.0) -> None:
@@ -128,24 +124,20 @@ def solution(
 ) -> None:
     """r₁ or λ₁ over κ/ν for several (α, ψ, χ); the number beside it is that of ``load`` at κ/ν = ``at``."""
     symbol, short = {"r1": ("$r_1$", "r₁"), "lambda1": (r"$\lambda_1$", "λ₁")}[name]
-    spread = np.geomspace(SMALLEST, 0.2, 100), np.linspace(0.2, 1.2, 400), np.array([0.3, 0.5, 0.8, 1.0])
-    ratios = np.unique(np.concatenate(spread))
+    words = {one: ", ".join(map(readable, one)) for one in loads}
+    ratios = np.unique([*np.geomspace(SMALLEST, 0.2, 100), *np.linspace(0.2, 1.2, 400), 0.3, 0.5, 0.8, 1.0])
     with sheet.figure(width=4.2, height=2.9) as (_, axis):
         axis.set(xlabel=r"$\kappa/\nu$  (1)", ylabel=f"{symbol}  (1)", ylim=limits)
         for one, line in zip(loads, IN_TURN):
             values = np.array(getattr(contact_parameters(ratios, *one), name), float)
             if name == "lambda1":
                 values[ratios == 1.0] = np.nan  # it jumps to 0 there: no line across
-            sheet.line(axis, ratios, values, series=text_of(one), **line)
-        guide(axis, x=1.0, y=0.0)
+            sheet.line(axis, ratios, values, series=words[one], **line)
+        axis.axvline(1.0, **GUIDE)
+        axis.axhline(0.0, **NIL)
         axis.set_xlim(SMALLEST, 1.2)
         axis.legend(title=r"$\alpha$, $\psi$, $\chi$", loc="center left", bbox_to_anchor=(1.0, 0.5))
-    found = float(getattr(contact_parameters(at, *load), name))
-    sheet.numbers[f"{short} for ({text_of(load)}) at κ/ν = {at:g}"] = found
-
-
-def text_of(load: Load) -> str:
-    return ", ".join(readable(v) for v in load)
+    sheet.numbers[f"{short} for ({words[load]}) at κ/ν = {at:g}"] = float(getattr(contact_parameters(at, *load), name))
 
 
 SETS = "The sets (α, ψ, χ) of the thesis's legend are not in its text; these include all that its text names"

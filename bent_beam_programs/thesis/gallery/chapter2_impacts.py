@@ -16,6 +16,7 @@ from comparison.readable import readable
 from theory import ImpactFields, contact_parameters
 
 EPSILON = 0.1
+REGULAR, WHOLE = plain_line("grey", "--", 1.4), plain_line("purple", ":", 1.2)
 PLACES = np.linspace(-1.5, 1.5, 121)
 """a = ξ/λ_c of the figures of the contact zone."""
 
@@ -46,7 +47,7 @@ def leading_zone(sheet: Sheet) -> None:
             free, fast = fields.slow_motion(xi, tau).deflection, fields.fast_layer(xi, tau).deflection
             worst.append(float(np.abs(free - fast)[np.abs(PLACES) <= 1.0].max()))
             zone_panel(axis, r"$\eta_0$")
-            sheet.line(axis, PLACES, free, series="free motion", **plain_line("grey", "--", 1.4))
+            sheet.line(axis, PLACES, free, series="free motion", **REGULAR)
             sheet.line(axis, PLACES, fast, series="fast layer", **style.THEORY)
             zone_panel(below, r"free $-$ fast")
             sheet.line(below, PLACES, free - fast, series="free motion less fast layer", **style.THEORY)
@@ -75,17 +76,14 @@ def first_order_zone(sheet: Sheet) -> None:
             quartic = EPSILON * psi * (xi**4 - (PLACES * p.lambda0 * np.sqrt(tau)) ** 4) / 24.0
             printed = free + dropped - quartic
             zone_panel(axis, r"$\eta$")
-            sheet.line(axis, PLACES, printed, series="free motion (2.7.41)", **plain_line("grey", "--", 1.4))
-            sheet.line(axis, PLACES, free, series="not truncated", **plain_line("purple", ":", 1.2))
+            sheet.line(axis, PLACES, printed, series="free motion (2.7.41)", **REGULAR)
+            sheet.line(axis, PLACES, free, series="not truncated", **WHOLE)
             sheet.line(axis, PLACES, fast, series="fast layer", **style.THEORY)
             zone_panel(below, r"free $-$ fast")
             below.set(xlim=(-1.1, 1.1))
             kept = np.abs(PLACES) <= 1.1
-            for series, off, line in (
-                ("(2.7.41) less fast layer", printed - fast, plain_line("grey", "--", 1.4)),
-                ("not truncated less fast layer", free - fast, plain_line("purple", ":", 1.2)),
-            ):
-                sheet.line(below, PLACES[kept], off[kept], series=series, **line)
+            for series, off, line in (("(2.7.41)", printed - fast, REGULAR), ("not truncated", free - fast, WHOLE)):
+                sheet.line(below, PLACES[kept], off[kept], series=f"{series} less fast layer", **line)
             sheet.numbers |= {
                 f"({letter}) fast layer less printed free motion at a = 1": float((fast - printed)[inside][-1]),
                 f"({letter}) largest difference, not truncated": float(np.abs(free - fast)[inside].max()),
@@ -162,8 +160,5 @@ def lifting(sheet: Sheet) -> None:
             right.set_ylabel(r"deflection $w$  ($10^{-3}$)")
             right.yaxis.set_major_formatter(lambda value, _: f"{1e3 * value:.3g}".replace("-", "−"))
     p = fields.parameters
-    sheet.numbers |= {
-        "λ₀": float(p.lambda0),
-        "λ₁": float(p.lambda1),
-        "ε|λ₁|τ/λ₀ at τ = 0.5": float(EPSILON * abs(p.lambda1) * 0.5 / p.lambda0),
-    }
+    sheet.numbers |= {"λ₀": float(p.lambda0), "λ₁": float(p.lambda1)}
+    sheet.numbers["ε|λ₁|τ/λ₀ at τ = 0.5"] = float(EPSILON * abs(p.lambda1) * 0.5 / p.lambda0)

@@ -25,18 +25,12 @@ TIMES = (2.5e-5, 1e-4, 1.75e-4, 2.5e-4)
 
 
 def run(contact: str, mass: str, curvature: float = FLAT, duration: float = 0.1) -> Outcome:
-    """One of the four."""
     return thesis(f"{NAMES[contact]}, {mass}", curvature, duration, contact=contact, mass=MASSES[mass])
-
-
-def four() -> list[Outcome]:
-    """Nodes and middles, both masses."""
-    return [run(contact, mass) for mass, contact in PAIRS]
 
 
 def compare(sheet: Sheet, *shown: panels.Panel) -> None:
     """Panels of the four and of the references in a row, one legend, their numbers beside them."""
-    own = four()
+    own = [run(contact, mass) for mass, contact in PAIRS]
     outcomes = own + reference_runs(FLAT, 0.1)
     count, width = len(shown), style.PAGE if len(shown) > 1 else 4.6
     with sheet.figure(1, count, width=width, height=3.0, legend=2 + count, legend_size=7.0) as (_, axes):
@@ -48,21 +42,18 @@ def compare(sheet: Sheet, *shown: panels.Panel) -> None:
 
 
 def evolution(sheet: Sheet, contact: str) -> None:
-    """Geometry at several times, a panel for each mass."""
     places, last = np.linspace(0.0, 1.1, 300), TIMES[-1]
     texts = [f"{mass} mass" for mass in MASSES]
     with sheet.figure(1, 2, height=2.9, texts=texts, legend=3, legend_size=7.0) as (_, axes):
         for axis, mass in zip(axes, MASSES):
             found = run(contact, mass)
-            exact = found.exact
             drawing.beam_at_times(sheet, axis, found.history, TIMES, 1.1, lambda t: f"t = {readable(t, 3)} s")
             for t, colour in zip(TIMES, style.SEQUENCE):
-                axis.plot(float(exact.front(t)), 0.0, marker="^", ms=5, color=colour, clip_on=False, zorder=5)
-            flat = -1e3 * exact.gap(places, last)
+                axis.plot(float(found.exact.front(t)), 0.0, marker="^", ms=5, color=colour, clip_on=False, zorder=5)
+            flat = -1e3 * found.exact.gap(places, last)
             sheet.line(axis, places, flat, series=f"theory, t = {readable(last, 3)} s", **style.THEORY)
-            lift = 1e3 * found.lift
+            sheet.numbers[f"largest lift inside the zone (mm), {mass} mass"] = lift = 1e3 * found.lift
             style.wall_below(axis, -1.4 * lift, 0.25 * lift)
-            sheet.numbers[f"largest lift inside the zone (mm), {mass} mass"] = lift
 
 
 @item("fig-3.23", shown=SHOWN)
@@ -123,7 +114,7 @@ def strains(sheet: Sheet) -> None:
     {shown}. The thesis has 3.8 J with nodes and 38 J with middles. Nodes tell the masses apart, middles do not. Theory
     has a quarter of the energy V₀∫R dt, most of it in waves that elements longer than the front is thick cannot carry.
     """
-    found = four()
+    found = [run(contact, mass) for mass, contact in PAIRS]
     with sheet.figure(1, 2, height=2.8, legend=3, legend_size=7.0) as (_, axes):
         panels.strain(sheet, axes[0], found, theory=None)
         panels.strain(sheet, axes[1], found)
@@ -145,15 +136,10 @@ def reaction_in_space_and_time(sheet: Sheet) -> None:
     cells = drawing.draw_maps(sheet, shown, 2, 5.0)
     exact = Exact(next(iter(shown.values())).impact)
     for name, found in zip(shown, cells):
-        sheet.numbers[f"impulse inside nine tenths of the zone (%), {name}"] = 100.0 * share_inside(found, exact)
-
-
-def share_inside(cells: drawing.CellForces, exact: Exact) -> float:
-    """Impulse in cells inside nine tenths of the contact zone, over all of it."""
-    middle = 0.5 * (cells.places[1:] + cells.places[:-1])
-    impulse = cells.force * np.diff(cells.times)[:, None]
-    inner = middle[None, :] < 0.9 * exact.front(cells.times[:-1])[:, None] - (middle[1] - middle[0])
-    return float(impulse[inner].sum() / impulse.sum())
+        middle, impulse = 0.5 * (found.places[1:] + found.places[:-1]), found.force * np.diff(found.times)[:, None]
+        inner = middle[None, :] < 0.9 * exact.front(found.times[:-1])[:, None] - (middle[1] - middle[0])
+        share = 100.0 * float(impulse[inner].sum() / impulse.sum())
+        sheet.numbers[f"impulse inside nine tenths of the zone (%), {name}"] = share
 
 
 @item("fig-A.2")

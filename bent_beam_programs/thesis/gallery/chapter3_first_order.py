@@ -30,14 +30,16 @@ CASE = (
     "V₀ = 3.5 m/s, K = 0.35 1/m, L = 2 m, Δx = 2.5·10⁻³ m, e = 1.25, ρ∞ = 0.8, nodes, lumped mass (r = 1/105), "
     "h = 2.5·10⁻⁸ s"
 )
+MAP = (
+    f"{CASE}; cells even in x and √t, the axis of t scaled alike, so that the front is straight; theory's ±λ_c(t) "
+    "(red line)"
+)
 SIGNS = {-700.0: "a₀ = −700 m/s²", 0.0: "a₀ = 0", 700.0: "a₀ = 700 m/s²"}
 EDGE = 0.45  # m, of the figures
 
 
 def impact(acceleration: float) -> Impact:
-    return Impact(
-        bending_stiffness=1.0, mass_per_length=1.0, length=2.0, curvature=0.35, velocity=3.5, acceleration=acceleration
-    )
+    return Impact(1.0, 1.0, length=2.0, curvature=0.35, velocity=3.5, acceleration=acceleration)
 
 
 def old(acceleration: float, **changes: Any) -> Outcome:
@@ -65,10 +67,8 @@ def ours(acceleration: float, duration: float = DURATION) -> list[Outcome]:
     given = impact(acceleration)
     long, endless = study.infinite(given)
     history = endless.simulate(long, end_time=duration * given.time_scale, save=400)
-    return [
-        outcome_of(resolved(acceleration, duration), study.FINITE, mark=HermiteFE.path),
-        outcome_of(history, study.INFINITE, mark=endless.path),
-    ]
+    finite = outcome_of(resolved(acceleration, duration), study.FINITE, mark=HermiteFE.path)
+    return [finite, outcome_of(history, study.INFINITE, mark=endless.path)]
 
 
 @item("fig-3.33", case=CASE)
@@ -106,15 +106,6 @@ def shapes(sheet: Sheet) -> None:
         sheet.numbers[f"lift (mm), {SIGNS[700.0]}, h = 2.5·10⁻⁷ s, fine to {zone:g} m"] = lift
 
 
-def evolution(sheet: Sheet, axis: Axes, acceleration: float) -> None:
-    """Geometry at several times with the thesis's settings."""
-    history = own(acceleration).history
-    times = float(history.time[-1]) * np.array([0.25, 0.5, 0.75, 1.0])
-    beam_at_times(sheet, axis, history, times, EDGE, lambda t: f"t = {1e3 * t:.2g} ms")
-    style.wall_below(axis, -8.0, 1.0)
-    axis.legend(fontsize=6.5, loc="upper left" if acceleration > 0.0 else "upper right")
-
-
 def leading(sheet: Sheet, axis: Axes, what: str, end: float) -> None:
     """Theory of leading order (a method of :class:`Exact`) in the units of the panel, ms and mm, N or kN."""
     t = end * np.linspace(0.0, 1.0, 301)[1:] ** 2
@@ -139,7 +130,11 @@ def all_of_it(sheet: Sheet) -> None:
             name = SIGNS[acceleration]
             plain = replace(own(0.0), label=f"{study.OLD}, {SIGNS[0.0]}")
             runs = [own(acceleration), plain, *ours(acceleration)]
-            evolution(sheet, axes[0, column], acceleration)
+            history, above = runs[0].history, axes[0, column]
+            times = float(history.time[-1]) * np.array([0.25, 0.5, 0.75, 1.0])
+            beam_at_times(sheet, above, history, times, EDGE, lambda t: f"t = {1e3 * t:.2g} ms")
+            style.wall_below(above, -8.0, 1.0)
+            above.legend(fontsize=6.5, loc="upper left" if acceleration > 0.0 else "upper right")
             contact_length(sheet, axes[1, column], runs)
             banded(sheet, axes[2, column], runs)
             for axis in axes[1:, column]:
@@ -152,14 +147,7 @@ def all_of_it(sheet: Sheet) -> None:
 
 
 def one_map(sheet: Sheet, acceleration: float) -> None:
-    """Thesis's settings and Hermite with its own choices, one colour scale."""
     draw_maps(sheet, {study.OLD: own(acceleration).history, study.FINITE: resolved(acceleration)}, 1, 3.0)
-
-
-MAP = (
-    f"{CASE}; cells even in x and √t, the axis of t scaled alike, so that the front is straight; theory's ±λ_c(t) "
-    "(red line)"
-)
 
 
 @item("fig-3.35", map=MAP)
@@ -202,8 +190,7 @@ def left_out(sheet: Sheet) -> None:
     long back from the ends, so that the run would have shown them and not λ₁. a₀ = 17 m/s² is εα = 0.4 here: it belongs
     to ε = 0.1 and ν = 1, while (3.5.7) gives 140 m/s² with α = 4 and ν = 0.1.
     """
-    found = ours(17.0, 0.5)
-    finite = found[0]
+    found = finite, _ = ours(17.0, 0.5)
     with sheet.figure(1, 2, height=2.8, legend=3) as (_, axes):
         contact_length(sheet, axes[0], found)
         # a centroid means nothing where the reaction is random: such points are left outside

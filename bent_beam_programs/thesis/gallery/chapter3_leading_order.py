@@ -15,7 +15,7 @@ from scipy.interpolate import CubicHermiteSpline
 from bent_beam.history import ImpactHistory
 from bent_beam.measure.numbers import Number
 from bent_beam.meshes import UniformMesh
-from bent_beam_programs.thesis.gallery.drawing import nearest, plain_line
+from bent_beam_programs.thesis.gallery.drawing import plain_line
 from bent_beam_programs.thesis.gallery.runs import case, thesis
 from bent_beam_programs.thesis.sheet import Sheet, item, items
 from bent_beam_programs.thesis.studies.exact import Exact
@@ -203,7 +203,7 @@ def geometry(sheet: Sheet, axis: Axes, history: ImpactHistory, times: tuple[floa
     near, between = x <= 0.16, np.linspace(0.0, 0.15, 121)
     axis.set(xlabel="$x$  (m)", ylabel="deflection $y$  (mm)")
     for i, (t, colour) in enumerate(zip(times, style.SEQUENCE)):
-        k, name = nearest(history.time, t), f"t = {1e6 * t:.4g} µs"
+        k, name = int(np.abs(history.time - t).argmin()), f"t = {1e6 * t:.4g} µs"
         cubic = CubicHermiteSpline(x, -1e3 * gap[k], 1e3 * slope[k])
         sheet.line(axis, between, cubic(between), series=name, color=colour, lw=2.2 - 0.4 * i)
         drawn = {"color": colour, "ls": "", "marker": "o", "ms": 3, "mfc": "none"}

@@ -13,7 +13,7 @@ from bent_beam_programs.thesis.gallery.runs import Series, case, thesis
 from bent_beam_programs.thesis.sheet import Sheet, item, items
 from bent_beam_programs.thesis.studies.exact import Exact
 from bent_beam_programs.thesis.studies.numerical import PER_ELEMENT, square_mesh
-from bent_beam_programs.thesis.studies.outcome import CUT_OFF, Outcome
+from bent_beam_programs.thesis.studies.outcome import CUT_OFF
 from bent_beam_programs.thesis.studies.panels import contact_length, energy, filtered, geometry, geometry_off, less
 from bent_beam_programs.thesis.studies.thesis import MASSES, thesis_settings
 from comparison.figures import style
@@ -27,13 +27,9 @@ COST = {  # h: (seconds, most iterations, mean iterations), Table 3.1
     2.5e-8: (715.86, 4, 1.035),
     1e-8: (1753.98, 4, 1.011),
 }
-
-
 STEPS = Series(COARSE, 0.01, {f"h = {readable(h)} s": {"time_step": h} for h in COST})
 RADII = Series(1.0 / 40.0, 0.01, {f"ρ∞ = {r:g}": {"spectral_radius": r} for r in (1.0, 0.8, 0.5, 0.0)})
 RESTITUTIONS = Series(1.0 / 40.0, 0.1, {f"restitution {e:g}": {"restitution": e} for e in (0.0, 1.0)})
-
-
 COARSE_CASE = f"K = 1 1/m, t_f = 2.5·10⁻⁵ s, h = 2.5·10⁻⁸ s; {LEGEND}"
 DAMPED_CASE = (
     f"K = 1/40 1/m (κ/ν = 1.25·10⁻³; the thesis prints 1.3·10⁻³), h = 2.5·10⁻⁸ s, Δx = 2.5·10⁻³ m, e = 1.25; {LEGEND}"
@@ -134,8 +130,6 @@ def cost(sheet: Sheet) -> None:
 
 FLAT = 1.0 / 80.0
 ELEMENTS = {1.0: 20000, 1.05: 302, 1.1: 192, 1.25: 120, 1.5: 92}  # e: count, Table 3.2
-
-
 LENGTHS = Series(
     COARSE, 0.01, {f"Δx = {readable(1e3 * dx)} mm": {"element_length": dx} for dx in (5e-3, 2.5e-3, 1.5e-3)}
 )
@@ -176,9 +170,8 @@ items(__name__, drawing.run_figure, (
 
 def table_nodes(growth: float) -> np.ndarray:
     """Nodes of half the beam of Table 3.2, m."""
-    if growth == 1.0:
-        return np.linspace(0.0, 25.0, 10001)
-    return GradedMesh(2.5e-3, growth, size_ratio=1e6).nodes(25.0)
+    even = np.linspace(0.0, 25.0, 10001)
+    return even if growth == 1.0 else GradedMesh(2.5e-3, growth, size_ratio=1e6).nodes(25.0)
 
 
 def count_of(curvature: float, duration: float, *, square: bool = False) -> int:
@@ -203,15 +196,13 @@ def counts(sheet: Sheet) -> None:
     zone of 25 elements a side gives the thesis's numbers within two elements, without its cap of 10³ on the ratio of
     lengths; its largest element for e = 1.25, 0.2994 m, does not fit 120 elements.
     """
-    rows = []
-    for growth, printed in ELEMENTS.items():
-        laid = table_nodes(growth)
-        rows.append([f"{growth:g}", printed, 2 * (laid.size - 1), float(np.diff(laid)[-1])])
+    laid = [(growth, printed, table_nodes(growth)) for growth, printed in ELEMENTS.items()]
+    rows = [[f"{growth:g}", printed, 2 * (x.size - 1), float(np.diff(x)[-1])] for growth, printed, x in laid]
     sheet.table(["e", "thesis", "ours", "largest element (m)"], rows, width=style.COLUMN + 0.8)
 
 
 def square_middle(mass: str) -> float:
-    """Depth of the central node of the square mesh inside the wall at the end, m."""
+    """Depth of its central node inside the wall at the end, m."""
     return -float(thesis("", FLAT, 0.01, mesh=SQUARE, mass=MASSES[mass]).gap[0])
 
 
@@ -232,7 +223,7 @@ def square_nodes(sheet: Sheet) -> None:
         sheet.line(axes[1], shown[:-1], 1e3 * np.diff(shown), series="element length", **line)
         axes[0].invert_yaxis()  # the wall is below
         for axis in axes:
-            drawing.guide(axis, x=SQUARE.zone)
+            axis.axvline(SQUARE.zone, **drawing.GUIDE)
     sheet.numbers |= {"first element (mm)": 1e3 * laid[1], "shortest element (mm)": 1e3 * float(np.diff(laid).min())}
 
 
@@ -253,14 +244,10 @@ def square_length(sheet: Sheet) -> None:
                 contact_length(sheet, axis, found)
             column[1].set(xlim=(0.6e6 * end, 1e6 * end), ylim=(0.97e3 * low, 1.03e3 * high))
             drawing.numbers_of(sheet, drawing.named(found, mass, mass != "lumped"), "contact_length_error")
-            rest = "longest rest of λ_c in the last two fifths (µs)"
-            sheet.numbers |= {f"{rest}, {o.label}, {mass}": 1e6 * longest_rest(o) for o in found[:2]}
-
-
-def longest_rest(outcome: Outcome) -> float:
-    """The longest time for which λ_c rests at one place in the last two fifths of the run, s."""
-    late = outcome.time >= 0.6 * outcome.time[-1]
-    highest = np.maximum.accumulate(outcome.front[late])
-    moved = np.flatnonzero(np.diff(highest) > 0.0)
-    instants = outcome.time[late][np.concatenate([[0], moved + 1, [highest.size - 1]])]
-    return float(np.diff(instants).max())
+            for o in found[:2]:
+                late = o.time >= 0.6 * end
+                highest = np.maximum.accumulate(o.front[late])
+                moved = np.flatnonzero(np.diff(highest) > 0.0)
+                rests = np.diff(o.time[late][np.concatenate([[0], moved + 1, [highest.size - 1]])])
+                name = f"longest rest of λ_c in the last two fifths (µs), {o.label}, {mass}"
+                sheet.numbers[name] = 1e6 * float(rests.max())

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from bent_beam_programs.thesis.gallery.drawing import guide, plain_line
+from bent_beam_programs.thesis.gallery.drawing import NIL, plain_line
 from bent_beam_programs.thesis.sheet import Sheet, item
 from comparison.figures import style
 from hermite_fe import INTEGRATORS
@@ -28,9 +28,7 @@ GRAVITY, HEIGHT, RESTITUTION = 9.81, 0.5, 0.9
 def static(sheet: Sheet, force: float, node: int, supports: dict[int, float], exact: np.ndarray) -> None:
     """Deflection of 52 elements under a nodal force against the exact solution at the nodes."""
     beam = HermiteBeam(NODES, AXIS_STIFFNESS, 1.0)
-    load = np.zeros(beam.dofs)
-    load[2 * node] = force
-    found = beam.static(load, supports)[0::2]
+    found = beam.static(force * (np.arange(beam.dofs) == 2 * node), supports)[0::2]
     with sheet.figure() as (_, axis):
         axis.set(xlabel="$x$  (m)", ylabel="$w$  (m)", xlim=(0, LENGTH))
         sheet.line(axis, beam.nodes, -exact, series="theory", **style.THEORY)
@@ -69,12 +67,8 @@ def cantilever(sheet: Sheet) -> None:
 
 def ball(step: float, end: float) -> tuple[np.ndarray, np.ndarray]:
     """Times (s) and heights (m) of the ball by Moreau–Jean with θ = 1 (implicit Euler)."""
-    system = System(
-        mass=np.ones((1, 1)),
-        stiffness=np.zeros((1, 1)),
-        load=np.array([[-GRAVITY]]),
-        contacts=ContactRows(dofs=np.array([[0]]), factors=np.array([[1.0]]), gap=np.zeros(1)),
-    )
+    contacts = ContactRows(dofs=np.array([[0]]), factors=np.array([[1.0]]), gap=np.zeros(1))
+    system = System(np.ones((1, 1)), np.zeros((1, 1)), load=np.array([[-GRAVITY]]), contacts=contacts)
     scheme = INTEGRATORS["moreau_jean"](time_step=step, theta=1.0)
     save = [float(t) for t in np.arange(round(end / step) + 1) * step]
     run = integrate(system, np.array([HEIGHT]), np.zeros(1), scheme, end, law=ContactLaw(RESTITUTION), save=save)
@@ -94,14 +88,6 @@ def predicting_ball(step: float, instants: int) -> np.ndarray:
     return np.array(found)
 
 
-def exact_ball(end: float) -> tuple[np.ndarray, np.ndarray]:
-    """Times (s) and heights (m) of the exact flight, its bounces among the times."""
-    found = BouncingBall(HEIGHT, gravity=GRAVITY, restitution=RESTITUTION)
-    bounces = found.impact_time(np.arange(1, 61))
-    times = np.unique(np.concatenate([np.linspace(0.0, end, 3001), bounces[bounces <= end]]))
-    return times, np.where(np.isin(times, bounces), 0.0, found.position(times))
-
-
 @item("fig-3.6")
 def bouncing(sheet: Sheet) -> None:
     """Bouncing ball
@@ -113,23 +99,24 @@ def bouncing(sheet: Sheet) -> None:
     """
     times, height = ball(1e-3, 3.0)
     predicted = predicting_ball(1e-3, times.size)
-    dense, exact = exact_ball(3.0)
+    flight = BouncingBall(HEIGHT, gravity=GRAVITY, restitution=RESTITUTION)
+    bounces = flight.impact_time(np.arange(1, 61))
+    dense = np.unique(np.concatenate([np.linspace(0.0, 3.0, 3001), bounces[bounces <= 3.0]]))
+    exact = np.where(np.isin(dense, bounces), 0.0, flight.position(dense))
     with sheet.figure(1, 2, height=2.5, texts=["", "zoom"], legend=3) as (_, axes):
         for axis, marker in zip(axes, ("", ".")):
             axis.set(xlabel="$t$  (s)", ylabel="$q$  (m)")
             sheet.line(axis, dense, exact, series="theory", **style.THEORY)
-            drawn = (("position predicted", predicted, "vermilion"), ("Moreau–Jean", height, "blue"))
-            for series, y, colour in drawn:
+            for series, y, colour in (("position predicted", predicted, "vermilion"), ("Moreau–Jean", height, "blue")):
                 sheet.line(axis, times, y, series=series, **plain_line(colour, width=0.9, marker=marker, ms=4))
         hit = float(np.sqrt(2.0 * HEIGHT / GRAVITY))
         axes[0].set(xlim=(0, 3), ylim=(0, 0.52))
         axes[1].set(xlim=(hit - 0.012, hit + 0.012), ylim=(-0.005, 0.04))
-        guide(axes[1], y=0.0)
-    sheet.numbers |= {
-        "lowest height at the first bounce (m)": float(height[(times > 0.2) & (times < 0.5)].min()),
-        "the same, position predicted (m)": float(predicted[(times > 0.2) & (times < 0.5)].min()),
-        "way of a step (m)": hit * GRAVITY * 1e-3,
-    }
+        axes[1].axhline(0.0, **NIL)
+    first = (times > 0.2) & (times < 0.5)
+    sheet.numbers["lowest height at the first bounce (m)"] = float(height[first].min())
+    sheet.numbers["the same, position predicted (m)"] = float(predicted[first].min())
+    sheet.numbers["way of a step (m)"] = hit * GRAVITY * 1e-3
 
 
 @item("fig-A.1")

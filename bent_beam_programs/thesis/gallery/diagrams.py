@@ -31,7 +31,6 @@ def arrow(axis: Axes, start: Point, end: Point, colour: str = "black", ends: str
 
 
 def stroke(axis: Axes, x: Any, y: Any, colour: str = "black", width: float = 0.8, **drawn: Any) -> None:
-    """A line of the sketch that is not data."""
     axis.plot(x, y, color=colour, lw=width, **drawn)
 
 
@@ -66,7 +65,7 @@ def problem(sheet: Sheet) -> None:
         arrow(axis, (0.0, -1.2), (0.0, 0.4))
         axis.text(2.47, -0.07, "$x$")
         axis.text(0.08, 0.36, "$y$")
-        axis.text(1.75, -0.62, "$EI$, $\\mu$, $K$", ha="left")
+        axis.text(1.75, -0.62, "$EI$, $\\mu$, $K$")
         axis.text(-2.25, 0.33, "rigid wall", fontsize=7)
 
 

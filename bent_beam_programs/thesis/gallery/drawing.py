@@ -9,60 +9,39 @@ from typing import Any
 import numpy as np
 from matplotlib import colormaps
 from matplotlib.axes import Axes
-from matplotlib.collections import QuadMesh
 from matplotlib.colors import LogNorm
 
 from bent_beam.history import ImpactHistory
 from bent_beam.measure.force_map import force_map
 from bent_beam_programs.thesis.gallery.runs import Series
 from bent_beam_programs.thesis.sheet import Sheet
+from bent_beam_programs.thesis.studies import panels as studied
 from bent_beam_programs.thesis.studies.exact import Exact
 from bent_beam_programs.thesis.studies.outcome import MEASURES, Outcome, scatter
-from bent_beam_programs.thesis.studies.panels import (
-    REACH,
-    ROOT,
-    Panel,
-    banded,
-    contact_length,
-    energy,
-    filtered,
-    geometry,
-    impulse_off,
-    unit,
-)
+from bent_beam_programs.thesis.studies.panels import Panel, banded, filtered, unit
 from bent_beam_programs.thesis.studies.thesis import MASSES
 from comparison.figures import style
 from theory import ImpactFields
 
 NUMBERS: dict[Panel, tuple[str, ...]] = {
-    geometry: ("lift",),
-    contact_length: ("contact_length_error",),
+    studied.geometry: ("lift",),
+    studied.contact_length: ("contact_length_error",),
     filtered: ("reaction_error",),
     banded: ("reaction_error",),
-    energy: ("lost_impact", "lost_damping"),
+    studied.energy: ("lost_impact", "lost_damping"),
 }
 """Measures that go with a panel."""
+TIMES, PLACES = 60, 80
+DECADES = 4.0  # of the colour scale: below is noise of no consequence, pale
 
 
 def plain_line(colour: str, dashes: str = "-", width: float = 1.0, **drawn: Any) -> dict[str, Any]:
-    """A line in a named colour."""
     return {"color": style.COLOURS[colour], "lw": width, "ls": dashes, **drawn}
 
 
 FREE, FAST = plain_line("grey", "--"), plain_line("sky", "-.")
-
-
-def guide(axis: Axes, *, x: float | None = None, y: float | None = None) -> None:
-    """A thin grey line across an axis."""
-    if x is not None:
-        axis.axvline(x, color=style.COLOURS["grey"], lw=0.6, ls=":")
-    if y is not None:
-        axis.axhline(y, color=style.COLOURS["grey"], lw=0.5)
-
-
-def nearest(times: np.ndarray, wanted: float) -> int:
-    """Index of the saved instant nearest to a time."""
-    return int(np.argmin(np.abs(times - wanted)))
+NIL, GUIDE = plain_line("grey", width=0.5), plain_line("grey", ":", 0.6)
+"""Thin lines across an axis: where a quantity is nil, and at a place."""
 
 
 def beam_at_times(
@@ -72,7 +51,7 @@ def beam_at_times(
     x, gap = history.positions(-1), history.array("gap")
     axis.set(xlabel="$x$  (m)", ylabel="deflection $y$  (mm)", xlim=(0, edge))
     for t, colour in zip(times, style.SEQUENCE):
-        k, near = nearest(history.time, t), x <= edge
+        k, near = int(np.abs(history.time - t).argmin()), x <= edge
         label = name(float(history.time[k]))
         sheet.line(axis, x[near], -1e3 * gap[k][near], series=label, color=colour, lw=0.9)
 
@@ -104,13 +83,11 @@ def run_figure(sheet: Sheet, series: Series, panels: Sequence[Panel]) -> None:
 
 
 def filtered_scatter(outcome: Outcome) -> float | None:
-    """Of the filtered reaction about theory."""
     s = outcome.steps
     return None if s is None else scatter(s.time, s.filtered(), outcome.exact.side_reaction(s.time))
 
 
 def scatters_of(sheet: Sheet, outcomes: Sequence[Outcome]) -> None:
-    """The scatter of each run's filtered reaction beside the figure."""
     sheet.numbers |= {f"filtered reaction, scatter about theory, {o.label}": filtered_scatter(o) for o in outcomes}
 
 
@@ -125,8 +102,8 @@ LEGEND = (
     "Hermite (circles; for κ/ν < 1/200 half as fine) and Self-similar (diamonds) with their own choices, theory (black)"
 )
 FILTER = "every step, filtered as in 3.3.1 (above), and the impulse less theory's, unfiltered (below)"
-REACTION: tuple[Panel, ...] = (filtered, impulse_off)
-NOISY: tuple[Panel, ...] = (banded, impulse_off)
+REACTION: tuple[Panel, ...] = (filtered, studied.impulse_off)
+NOISY: tuple[Panel, ...] = (banded, studied.impulse_off)
 BAND = (
     "means in windows; the band holds eight tenths of the reaction of every step, filtered as in 3.3.1 (above), and "
     "the impulse less theory's, unfiltered (below)"
@@ -134,19 +111,12 @@ BAND = (
 
 
 def beam_panel(
-    sheet: Sheet,
-    axis: Axes,
-    fields: ImpactFields,
-    tau: float,
-    limits: tuple[float, float],
-    *,
-    zoom: float | None = None,
+    sheet: Sheet, axis: Axes, fields: ImpactFields, tau: float, limits: tuple[float, float], zoom: float | None = None
 ) -> None:
     """Free motion, fast layer and beam over ξ at one time; contact points marked on the wall. ``zoom`` : half width of
     a picture without the fast layer.
     """
-    reach = zoom or 1.5
-    front = float(fields.half_contact_length(tau))
+    reach, front = zoom or 1.5, float(fields.half_contact_length(tau))
     half = np.unique(np.concatenate([np.linspace(0.0, reach, 121), [front]]))
     xi = np.concatenate([-half[:0:-1], half])
     free, layer = (
@@ -163,12 +133,6 @@ def beam_panel(
     style.wall_below(axis, *limits)
 
 
-# Reaction over space and time, with one scale for all maps of a figure.
-
-TIMES, PLACES = 60, 80
-DECADES = 4.0  # of the colour scale: below is noise of no consequence, pale
-
-
 @dataclass(frozen=True)
 class CellForces:
     """Reaction per cell: places and times are edges, m and s; force (times, places), N, of one side of the beam."""
@@ -181,7 +145,7 @@ class CellForces:
 def cell_forces(history: ImpactHistory) -> CellForces:
     """Mean over cells even in √t (between the saved instants next to them), sum over cells of place."""
     exact, impact, end = Exact(history.impact), history.impact, float(history.time[-1])
-    edge = REACH * float(exact.front(np.linspace(0.0, end, 200)).max())
+    edge = studied.REACH * float(exact.front(np.linspace(0.0, end, 200)).max())
     wanted, places = end * np.linspace(0.0, 1.0, TIMES + 1) ** 2, np.linspace(0.0, edge, PLACES // 2 + 1)
     kept = np.unique(np.searchsorted(history.time, wanted).clip(0, history.time.size - 1))
     force = force_map(history, kept, places / impact.length_scale)
@@ -190,39 +154,33 @@ def cell_forces(history: ImpactHistory) -> CellForces:
 
 
 def draw_maps(sheet: Sheet, histories: Mapping[str, ImpactHistory], rows: int, height: float) -> list[CellForces]:
-    """A map of each history, two in a row, its name beside the letter; returns their cells."""
+    """A map of each history, two in a row, its name beside the letter; returns their cells.
+
+    Reaction (N) of both sides over x and √t (so that the front is a straight line), on one scale. The CSV holds, for
+    each cell of time, place and reaction of the cells that carry any.
+    """
     cells = [cell_forces(history) for history in histories.values()]
     largest = max(float(c.force.max()) for c in cells)
-    norm = LogNorm(largest / 10.0**DECADES, largest)
+    norm, colours = LogNorm(largest / 10.0**DECADES, largest), colormaps["YlGnBu"].with_extremes(under="#F4F4EC")
     with sheet.figure(rows, 2, height=height, texts=list(histories)) as (fig, axes):
         for axis, history, found in zip(axes.flat, histories.values(), cells):
-            drawn = one_map(sheet, axis, history, found, norm)
+            exact, end = Exact(history.impact), float(history.time[-1])
+            places, times, force = found.places, found.times, found.force
+            st, mt = unit(end, "s")
+            whole = np.concatenate([-places[:0:-1], places])
+            pushing = np.ma.masked_less_equal(np.hstack([force[:, ::-1], force]), 0.0)
+            drawn = axis.pcolormesh(whole, st * times, pushing, norm=norm, cmap=colours, rasterized=True)
+            axis.set(xlabel="$x$  (m)", ylabel=f"$t$  ({mt})")
+            middle = 0.5 * (places[1:] + places[:-1])
+            for row, at in zip(force, st * 0.5 * (times[1:] + times[:-1])):
+                carried = row > 0.0
+                sheet.record(axis, middle[carried], row[carried], f"t = {at:.4g} {mt}", "reaction (N)")
+            t = min(end, exact.end_of_contact) * np.linspace(0.0, 1.0, 200) ** 2
+            for side in (-1.0, 1.0):
+                line = plain_line("vermilion", width=0.6)
+                sheet.line(axis, side * exact.front(t), st * t, series=f"theory, side {side:+.0f}", **line)
+            axis.set_yscale("function", functions=studied.ROOT)
+            axis.grid(False)
+            axis.set(xlim=(-places[-1], places[-1]), ylim=(0.0, st * end))
         fig.colorbar(drawn, ax=axes, label="reaction of a cell  (N)", pad=0.02, extend="min", aspect=30)
     return cells
-
-
-def one_map(sheet: Sheet, axis: Axes, history: ImpactHistory, cells: CellForces, norm: LogNorm) -> QuadMesh:
-    """Reaction (N) of both sides over x and √t (so that the front is a straight line), mirrored about x = 0.
-
-    The CSV holds, for each cell of time, place and reaction of the cells that carry any.
-    """
-    exact, end = Exact(history.impact), float(history.time[-1])
-    places, times, force = cells.places, cells.times, cells.force
-    st, mt = unit(end, "s")
-    whole = np.concatenate([-places[:0:-1], places])
-    pushing = np.ma.masked_less_equal(np.hstack([force[:, ::-1], force]), 0.0)
-    colours = colormaps["YlGnBu"].with_extremes(under="#F4F4EC")
-    drawn = axis.pcolormesh(whole, st * times, pushing, norm=norm, cmap=colours, rasterized=True)
-    axis.set(xlabel="$x$  (m)", ylabel=f"$t$  ({mt})")
-    middle = 0.5 * (places[1:] + places[:-1])
-    for row, at in zip(force, st * 0.5 * (times[1:] + times[:-1])):
-        carried = row > 0.0
-        sheet.record(axis, middle[carried], row[carried], f"t = {at:.4g} {mt}", "reaction (N)")
-    t = min(end, exact.end_of_contact) * np.linspace(0.0, 1.0, 200) ** 2
-    for side in (-1.0, 1.0):
-        line = plain_line("vermilion", width=0.6)
-        sheet.line(axis, side * exact.front(t), st * t, series=f"theory, side {side:+.0f}", **line)
-    axis.set_yscale("function", functions=ROOT)
-    axis.grid(False)
-    axis.set(xlim=(-places[-1], places[-1]), ylim=(0.0, st * end))
-    return drawn

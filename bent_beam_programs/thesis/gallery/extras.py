@@ -8,12 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from bent_beam.history import ImpactHistory
 from bent_beam.meshes import GradedMesh, UniformMesh
 from bent_beam_programs.thesis.gallery import chapter3_contact_point as contact_point
 from bent_beam_programs.thesis.gallery import chapter3_first_order as first
 from bent_beam_programs.thesis.gallery.chapter3_contact_point import COLOURS, CONTACT, FLAT, SHOWN
-from bent_beam_programs.thesis.gallery.drawing import guide, numbers_of, plain_line
+from bent_beam_programs.thesis.gallery.drawing import GUIDE, numbers_of, plain_line
 from bent_beam_programs.thesis.gallery.runs import case, reference_history, thesis
 from bent_beam_programs.thesis.sheet import Sheet, item, legend_below
 from bent_beam_programs.thesis.studies import conditioning as study
@@ -21,7 +20,7 @@ from bent_beam_programs.thesis.studies.base import outcomes_of
 from bent_beam_programs.thesis.studies.exact import Exact
 from bent_beam_programs.thesis.studies.first_order_case import FITTED, fitted
 from bent_beam_programs.thesis.studies.numerical import NAMES
-from bent_beam_programs.thesis.studies.outcome import Outcome, outcome_of
+from bent_beam_programs.thesis.studies.outcome import outcome_of
 from bent_beam_programs.thesis.studies.panels import contact_length, geometry
 from bent_beam_programs.thesis.studies.thesis import CONSISTENT, MASSES, THESIS_MASS, thesis_settings
 from comparison.figures import style
@@ -30,12 +29,16 @@ from hermite_fe import CONTACTS, HermiteFE
 from hermite_fe.contacts import impact_coupling
 from hermite_fe.masses import LumpedMass, Mass
 
-
-def uniform(length: float) -> Outcome:
-    """The thesis's uniform mesh Δx = 2.5·10⁻³ m on a beam of a length, K = 1 1/m, τ = 0.01."""
-    given = case(1.0, 0.01)
-    method = thesis_settings(given.impact, given.end_time).replace(mesh=UniformMesh(2.5e-3)).method()
-    return outcome_of(method.simulate(given.impact.replace(length=length), end_time=given.end_time, save=200), "")
+ROTARY = (16.0, 24.0, 32.0, 50.0, 105.0, 420.0)
+"""1/r of the lumped masses of the coupling figure."""
+CANDIDATES = {
+    "consistent": CONSISTENT,
+    "lumped, r = 1/24": LumpedMass(1.0 / 24.0),
+    "lumped, r = 1/78": LumpedMass(1.0 / 78.0),
+    "lumped, r = 1/105": THESIS_MASS,
+    "lumped, r = 1/420": LumpedMass(1.0 / 420.0),
+}
+"""Mass matrices that the thesis's numbers were tried on; sources in :class:`hermite_fe.masses.LumpedMass`."""
 
 
 @item("extra-uniform")
@@ -46,9 +49,11 @@ def whole_beam(sheet: Sheet) -> None:
     and L = 50 m, which did not fit its memory. The answer is that of the graded mesh: the contact is over before the
     far elements matter.
     """
-    rows = []
+    given, rows = case(1.0, 0.01), []
+    method = thesis_settings(given.impact, given.end_time).replace(mesh=UniformMesh(2.5e-3)).method()
     for length, seconds in ((5.0, "8513.72"), (50.0, "out of memory")):
-        m = uniform(length).measures
+        history = method.simulate(given.impact.replace(length=length), end_time=given.end_time, save=200)
+        m = outcome_of(history, "").measures
         rows.append([f"{length:g}", round(length / 2.5e-3), seconds, m["seconds"], m["lift"], m["reaction_error"]])
     sheet.table(["L (m)", "elements", "thesis (s)", "ours (s)", "lift/(V₀t)", "r₀ error (%)"], rows, width=5.2)
 
@@ -63,10 +68,8 @@ def fine(sheet: Sheet) -> None:
     """
     given = case(1.0, 0.01)
     zone = thesis_settings(given.impact, given.end_time).zone
-    found = [
-        thesis(f"Δx = {readable(dx)} m", 1.0, 0.01, mesh=GradedMesh(dx, 1.25, zone=zone, size_ratio=study.UNCAPPED))
-        for dx in (2.5e-3, 1e-4)
-    ]
+    meshes = [GradedMesh(dx, 1.25, zone=zone, size_ratio=study.UNCAPPED) for dx in (2.5e-3, 1e-4)]
+    found = [thesis(f"Δx = {readable(mesh.element_length)} m", 1.0, 0.01, mesh=mesh) for mesh in meshes]
     with sheet.figure(1, 2, height=2.8, legend=3) as (_, axes):
         contact_length(sheet, axes[0], found)
         geometry(sheet, axes[1], found)
@@ -103,7 +106,13 @@ def signorini(sheet: Sheet) -> None:
     }
     with sheet.figure(1, 2, height=2.7, legend=2) as (_, axes):
         for name, (history, line) in runs.items():
-            zone, t = whole_zone(history), history.time
+            exact, gap, t, speed = Exact(history.impact), history.array("gap"), history.time, history.impact.velocity
+            zone = np.zeros(t.size)  # of nine tenths of the contact zone, by trapezoids of nodal gaps
+            for k, front in enumerate(0.9 * exact.front(t)):
+                x = history.positions(k)
+                inside = (x >= 0.0) & (x <= front)
+                if inside.sum() > 2:
+                    zone[k] = np.trapezoid(gap[k, inside] ** 2, x[inside]) / ((speed * t[k]) ** 2 * front)
             kept = np.flatnonzero(zone > 0.0)
             kept = kept[:: max(1, kept.size // 40)] if line.get("marker") else kept
             sheet.line(axes[0], 1e6 * t[kept], zone[kept], series=name, **line)
@@ -113,28 +122,10 @@ def signorini(sheet: Sheet) -> None:
         axes[1].set(xlabel="$t$  (µs)", ylabel="impulse  (N s)")
 
 
-def whole_zone(history: ImpactHistory) -> np.ndarray:
-    """∫y² dx over (V₀t)²λ_c for nine tenths of the contact zone at each saved instant (trapezoids of nodal gaps)."""
-    exact, gap = Exact(history.impact), history.array("gap")
-    found = np.zeros(history.time.size)
-    for k, t in enumerate(history.time):
-        front, x = 0.9 * float(exact.front(t)), history.positions(k)
-        inside = (x >= 0.0) & (x <= front)
-        if inside.sum() > 2:
-            found[k] = np.trapezoid(gap[k, inside] ** 2, x[inside]) / ((history.impact.velocity * t) ** 2 * front)
-    return found
-
-
-# Which mass matrix made the thesis's numbers, and what its coupling of neighbouring constraints has to do with it.
-
-ROTARY = (16.0, 24.0, 32.0, 50.0, 105.0, 420.0)
-"""1/r of the lumped masses of the coupling figure."""
-
-
 def coupled(contact: str, mass: Mass) -> tuple[float, float]:
     """(coupling c of neighbouring constraints, lift in mm)."""
-    lift = thesis("", FLAT, 0.1, contact=contact, mass=mass).lift
-    return impact_coupling(CONTACTS[contact](), mass), 1e3 * lift
+    lift = 1e3 * thesis("", FLAT, 0.1, contact=contact, mass=mass).lift
+    return impact_coupling(CONTACTS[contact](), mass), lift
 
 
 @item("extra-coupling", beside=contact_point.__name__, shown=SHOWN)
@@ -148,21 +139,19 @@ def coupling(sheet: Sheet) -> None:
     thesis's nodes are ten times as flat as its middles (3.3.5) with lumped masses of one r, not with any.
     """
     found = {contact: np.array([coupled(contact, LumpedMass(1.0 / n)) for n in ROTARY]) for contact in CONTACT}
-    full = {contact: coupled(contact, MASSES["consistent"]) for contact in CONTACT}
-    marks = {"node": "o", "middle": "s"}
     with sheet.figure(1, 2, height=3.0, sharey=True) as (fig, axes):
         axes[0].set(xscale="log", xlabel="rotary part $r$  (1)", ylabel="lift  (mm)", ylim=(0.0, 3.6))
         axes[0].set_xticks([1.0 / n for n in ROTARY], [f"1/{n:g}" for n in ROTARY], fontsize=6.5, rotation=45.0)
         axes[0].minorticks_off()
         axes[1].set(xlabel=r"coupling of neighbouring constraints $c$  (1)", ylabel="lift  (mm)")
-        guide(axes[1], x=0.0)
-        for contact, marker in marks.items():
+        axes[1].axvline(0.0, **GUIDE)
+        for contact, marker in zip(CONTACT, "os"):
             drawn: dict[str, Any] = {"color": COLOURS["lumped", contact], "marker": marker, "ms": 4.5, "mfc": "none"}
             c, lift = found[contact].T
             label = f"{NAMES[contact]}, lumped"
             sheet.line(axes[0], 1.0 / np.array(ROTARY), lift, series=label, **drawn)
             sheet.line(axes[1], c, lift, series=label, **drawn | ({"ls": ""} if contact == "node" else {}))
-            one, high = full[contact]
+            one, high = coupled(contact, MASSES["consistent"])
             shade = COLOURS["consistent", contact]
             filled = drawn | {"color": shade, "mfc": shade, "ls": ""}
             sheet.line(axes[1], one, high, series=f"{NAMES[contact]}, consistent", **filled)
@@ -172,16 +161,6 @@ def coupling(sheet: Sheet) -> None:
             axes[1].annotate(f"1/{n:g}", (c, high), xytext=(5, 3), textcoords="offset points", fontsize=6.5)
             sheet.numbers[f"c, middles, r = 1/{n:g}"] = float(c)
         legend_below(fig, axes[1], 4, fontsize=7.0)
-
-
-CANDIDATES = {
-    "consistent": CONSISTENT,
-    "lumped, r = 1/24": LumpedMass(1.0 / 24.0),
-    "lumped, r = 1/78": LumpedMass(1.0 / 78.0),
-    "lumped, r = 1/105": THESIS_MASS,
-    "lumped, r = 1/420": LumpedMass(1.0 / 420.0),
-}
-"""Mass matrices that the thesis's numbers were tried on; sources in :class:`hermite_fe.masses.LumpedMass`."""
 
 
 @item("extra-masses", beside=contact_point.__name__, shown=SHOWN)
@@ -197,13 +176,10 @@ def masses(sheet: Sheet) -> None:
     """
     rows: list[list[object]] = [["thesis", 0.17, 3.8, 1.7, 38.0, 0.41, *FITTED.values()]]
     for name, mass in CANDIDATES.items():
-        cells: list[object] = [name]
-        for contact in CONTACT:
-            outcome = thesis("", FLAT, 0.1, contact=contact, mass=mass)
-            cells += [round(1e3 * outcome.lift, 2), round(float(outcome.strain[-1]), 1)]
-        cells.append(round(1e3 * first.old(0.0, mass=mass).lift, 2))
-        cells += [round(fitted(first.old(700.0 * sign, mass=mass)), 1) for sign in FITTED]
-        rows.append(cells)
+        runs = [thesis("", FLAT, 0.1, contact=contact, mass=mass) for contact in CONTACT]
+        cells = [number for o in runs for number in (round(1e3 * o.lift, 2), round(float(o.strain[-1]), 1))]
+        fits = [round(fitted(first.old(700.0 * sign, mass=mass)), 1) for sign in FITTED]
+        rows.append([name, *cells, round(1e3 * first.old(0.0, mass=mass).lift, 2), *fits])
     columns = ("mass matrix", "node: lift (mm)", "strain (J)", "middle: lift (mm)", "strain (J)", "3.5: lift (mm)")
     sheet.table([*columns, "λ₁, +", "λ₁, −"], rows)
     for h in (1e-6, 5e-7, 2.5e-7):

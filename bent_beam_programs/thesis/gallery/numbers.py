@@ -27,9 +27,9 @@ def on_runs(where: str, what: str, printed: str, measured: Callable[[str], float
     return Printed(where, what, printed, measured("lumped"), how, read=True, consistent=measured("consistent"))
 
 
-def straight(measured: Callable[[str], Callable[[str], float]]) -> str:
-    """The same of middles on straight lines between the nodes (3.3.5). measured : of a contact, of a mass."""
-    lumped, consistent = (readable(measured("straight")(mass), 3) for mass in ("lumped", "consistent"))
+def straight(measured: Callable[[str], float]) -> str:
+    """The same of middles on straight lines between the nodes (3.3.5)."""
+    lumped, consistent = (readable(measured(mass), 3) for mass in ("lumped", "consistent"))
     return f"middles of straight lines (3.3.5): {lumped}; with (3.1.8) {consistent}"
 
 
@@ -41,11 +41,6 @@ def lift(contact: str) -> Callable[[str], float]:
 def strain_energy(contact: str) -> Callable[[str], float]:
     """Strain energy of 3.3.5 with a mass, J."""
     return lambda mass: float(run(contact, mass).strain[-1])
-
-
-def first_impulse(element: float) -> Callable[[str], float]:
-    """Impulse of the first impact of 3.4 with a mass, N s."""
-    return lambda mass: first_impact(element, MASSES[mass])[0]
 
 
 def of_theory(name: str, *load: float) -> float:
@@ -128,15 +123,13 @@ def contacts() -> Iterator[Printed]:
         return lambda mass: float(thesis("", 1.0, 0.01, contact=contact, mass=MASSES[mass]).gap[0])
 
     yield on_runs("3.3.1, Fig. 3.7", "lift in the middle, K = 1 1/m, t = 2.5·10⁻⁵ s, m", "2e-4", bent("middle"),
-                  straight(bent))
+                  straight(bent("straight")))
     for contact, name, high, strain, rough in (("node", "nodes", "1.7e-4", "3.8", "1.5e-4"),
                                                ("middle", "middles", "1.7e-3", "38", "1.5e-3")):
-        lines = (straight(lift), straight(strain_energy)) if contact == "middle" else ("", "")
+        lines = [straight(of("straight")) for of in (lift, strain_energy)] if contact == "middle" else ["", ""]
         yield on_runs("3.3.5", f"lift at 2.5·10⁻⁴ s, {name}, m", high, lift(contact), lines[0])
-        yield on_runs("3.4", f"“numerical errors” at τ = 0.1, {name}, m", rough,
-                      lift(contact), "the same lift")
-        yield on_runs("3.3.5", f"strain energy at 2.5·10⁻⁴ s, {name}, J", strain,
-                      strain_energy(contact), lines[1])
+        yield on_runs("3.4", f"“numerical errors” at τ = 0.1, {name}, m", rough, lift(contact), "the same lift")
+        yield on_runs("3.3.5", f"strain energy at 2.5·10⁻⁴ s, {name}, J", strain, strain_energy(contact), lines[1])
     rule = "the thesis joins nodes by straight lines (3.3.5), which gives {}; the shape functions (A.6) KΔx²/8"
     for where, curvature, name, element, depth, delay in (
         ("3.3.5, A.7", FLAT, "1/80", 2.5e-3, "1.45e-8", "7e-10"),
@@ -163,9 +156,9 @@ def discrete() -> Iterator[Printed]:
                   DURATION * case(CURVATURE, DURATION).impact.time_scale, "ours: the end of that run")
     yield on_runs("3.4, Fig. 3.32c", "energy lost in the first impact, J", "10",
                   lambda mass: first_impact(ELEMENT, MASSES[mass])[1], "")
-    for element, impulse in ((5e-2, "1"), (1e-2, "0.2")):
-        yield on_runs("3.4, Fig. 3.32d", f"impulse of the first impact, Δx = {element:g} m, N s", impulse,
-                      first_impulse(element), "")
+    where, what = "3.4, Fig. 3.32d", "impulse of the first impact, Δx = {:g} m, N s"
+    yield on_runs(where, what.format(5e-2), "1", lambda mass: first_impact(5e-2, MASSES[mass])[0], "")
+    yield on_runs(where, what.format(1e-2), "0.2", lambda mass: first_impact(1e-2, MASSES[mass])[0], "")
     yield on_runs("3.4", "the same for h = 10⁻¹⁰ s, Δx = 0.05 m, N s", "1",
                   lambda mass: first_impact(ELEMENT, MASSES[mass], 1e-10)[0], "")
 
@@ -191,9 +184,7 @@ def first_order() -> Iterator[Printed]:
                   f"wall. Theory of first order has R = 0 at {end} s; the thesis draws it beyond (Fig. 3.36)")
 # fmt: on
 
-
 PRINTED = (chapter2, scales, meshes, contacts, discrete, first_order)
-
 COLUMNS = ("where", "what", "thesis", "ours", "ours : thesis", "class", "with (3.1.8)", "how measured, why")
 HEAD = """\
 # Every printed number that can be computed
@@ -217,11 +208,6 @@ simulation. The seconds and iterations of Table 3.1 stand beside ours in the gal
 """
 
 
-def rows() -> list[list[str]]:
-    """All of them, computed."""
-    return [printed.row() for part in PRINTED for printed in part()]
-
-
 def markdown(found: list[list[str]]) -> str:
     """The page docs/thesis_numbers.md."""
     table = [list(COLUMNS), ["---"] * len(COLUMNS), *([cell.replace("|", "\\|") for cell in row] for row in found)]
@@ -236,7 +222,7 @@ def numbers(sheet: Sheet) -> None:
     Numbers printed in the thesis beside this project's, each in one of five classes, with a lumped mass and
     with (3.1.8).
     """
-    found = rows()
+    found = [printed.row() for part in PRINTED for printed in part()]
     sheet.data(COLUMNS, found)
     sheet.files[".md"] = lambda file: write_atomically(file, markdown(found))
     for name, ours, other, _, _ in counts(found):

@@ -72,7 +72,7 @@ def stepped(impact: Impact, end_time: float, settings: Settings) -> Outcome:
 
 
 def thesis(label: str, curvature: float, duration: float, **changes: Any) -> Outcome:
-    """One run with the thesis's settings but for ``changes`` (fields of :class:`.Settings`)."""
+    """One run with the thesis's settings but for ``changes``."""
     given = case(curvature, duration)
     settings = thesis_settings(given.impact, given.end_time).replace(**changes)
     return replace(stepped(given.impact, given.end_time, settings), label=label)
@@ -80,7 +80,6 @@ def thesis(label: str, curvature: float, duration: float, **changes: Any) -> Out
 
 @functools.cache
 def reference_history(curvature: float, duration: float, path: str) -> ImpactHistory:
-    """One reference's run."""
     given = case(curvature, duration)
     (run,) = (v for v in references(given.impact, given.end_time) if v.method.path == path)
     thin = path == HermiteFE.path and given.impact.kappa_over_nu < resolution.THIN
@@ -91,10 +90,8 @@ def reference_history(curvature: float, duration: float, path: str) -> ImpactHis
 def reference_runs(curvature: float, duration: float) -> list[Outcome]:
     """This project's methods: the fixed mesh and the infinite beam in similarity coordinates."""
     given = case(curvature, duration)
-    return [
-        outcome_of(reference_history(curvature, duration, v.method.path), v.label, mark=v.method.path)
-        for v in references(given.impact, given.end_time)
-    ]
+    methods = [v.method for v in references(given.impact, given.end_time)]
+    return [outcome_of(reference_history(curvature, duration, m.path), m.label, mark=m.path) for m in methods]
 
 
 @dataclass(frozen=True)
@@ -107,8 +104,6 @@ class Series:
 
     def outcomes(self, mass: str) -> list[Outcome]:
         """Those of a mass (a key of ``MASSES``)."""
-        found = [
-            thesis(label, self.curvature, self.duration, **changed, mass=MASSES[mass])
-            for label, changed in self.runs.items()
-        ]
-        return found + reference_runs(self.curvature, self.duration)
+        case = self.curvature, self.duration
+        own = [thesis(label, *case, mass=MASSES[mass], **changed) for label, changed in self.runs.items()]
+        return own + reference_runs(*case)

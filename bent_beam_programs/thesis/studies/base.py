@@ -62,17 +62,13 @@ class StudyResult:
         return dict(plain(asdict(self)))
 
     def table(self) -> list[list[Any]]:
-        """Rows of cells, in the order of the columns."""
         return [[row.get(key) for key in self.columns] for row in self.rows]
 
     def text(self) -> str:
         """Table and conclusion for a terminal."""
         table = text_table(list(self.columns.values()), [[readable(v) for v in row] for row in self.table()])
-        notes = [
-            f"failed: {', '.join(filter(None, (r['label'], r.get('setting'))))}: {r['failure']}"
-            for r in self.rows
-            if r.get("failure")
-        ]
+        lost = [r for r in self.rows if r.get("failure")]
+        notes = [f"failed: {', '.join(filter(None, (r['label'], r.get('setting'))))}: {r['failure']}" for r in lost]
         notes += [f"warning: {w}" for w in self.warnings] + [f"file: {f}" for f in self.files]
         return "\n".join([f"{self.title}: {self.case}", "", table, "", self.conclusion, *notes])
 

@@ -102,7 +102,6 @@ def conditions(variant: Variant, outcome: Outcome) -> dict[str, float | None]:
 
 
 def draw(sheet: Sheet, outcomes: Sequence[Outcome]) -> None:
-    """Both conditions over the element length."""
     lengths = [float(o.value or 0.0) for o in outcomes]
     with sheet.figure(width=4.2, height=3.0) as (_, axis):
         axis.set(xscale="log", yscale="log", xlabel=r"$\Delta x$  (m)", ylabel="condition  (1)")

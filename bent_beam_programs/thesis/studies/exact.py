@@ -43,7 +43,6 @@ class Exact:
 
     @property
     def leading(self) -> bool:
-        """No first-order term acts."""
         return not self.impact.loaded_to_first_order
 
     @cached_property

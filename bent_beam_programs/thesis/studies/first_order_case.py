@@ -74,23 +74,20 @@ def variants(case: Case) -> list[Variant]:
 
 def vary(on: MethodOnCase) -> list[Variant]:
     """The method as it is, under both accelerations."""
-    impacts = {sign: accelerated(on.case.impact, sign) for sign in SIGNS}
-    return [on.setting(f"{SIGNS[sign]}a₀", on.method, sign, impact=impact) for sign, impact in impacts.items()]
+    impact = on.case.impact
+    return [on.setting(f"{name}a₀", on.method, s, impact=accelerated(impact, s)) for s, name in SIGNS.items()]
 
 
 def fitted(outcome: Outcome, window: float = 1.0) -> float:
     """ελ₁(EI/μ)^{1/4}/t*, m/s^{3/2}, by the thesis's fit over the first ``window`` of the run."""
-    t = np.linspace(0.0, window * contact_time(outcome), 400)[1:]
+    # pulled back hard enough, the beam leaves the wall before the run ends
+    left = outcome.front < 0.5 * np.maximum.accumulate(outcome.front)
+    gone = np.flatnonzero(left & (outcome.time > 0.2 * outcome.time[-1]))
+    end = float(outcome.time[gone[0] - 1] if gone.size else outcome.time[-1])
+    t = np.linspace(0.0, window * end, 400)[1:]
     leading = outcome.impact.wave_constant**0.5 * float(outcome.exact.parameters.lambda0) * np.sqrt(t)
     correction, basis = np.interp(t, outcome.time, outcome.front) - leading, t**1.5
     return float((correction @ basis) / (basis @ basis))
-
-
-def contact_time(outcome: Outcome) -> float:
-    """End of the contact, s: pulled back hard enough, the beam leaves the wall before the run ends."""
-    highest = np.maximum.accumulate(outcome.front)
-    gone = np.flatnonzero((outcome.front < 0.5 * highest) & (outcome.time > 0.2 * outcome.time[-1]))
-    return float(outcome.time[gone[0] - 1] if gone.size else outcome.time[-1])
 
 
 def predicted(impact: Impact) -> float:
@@ -107,27 +104,14 @@ def fits(variant: Variant, outcome: Outcome) -> dict[str, float | None]:
 def draw(sheet: Sheet, outcomes: Sequence[Outcome]) -> None:
     """Geometry, contact length and reaction; a row for each sign of a₀."""
     with sheet.figure(2, 3, height=4.9, legend=4) as (_, axes):
-        for row, sign in zip(axes, SIGNS):
-            mine = [
-                replace(o, label=o.label.removeprefix(f"{SIGNS[sign]}a₀, "))
-                for o in outcomes
-                if o.value == sign and o.failure is None
-            ]
+        for row, (sign, name) in zip(axes, SIGNS.items()):
+            shown = [o for o in outcomes if o.value == sign and o.failure is None]
+            mine = [replace(o, label=o.label.removeprefix(f"{name}a₀, ")) for o in shown]
             for axis, panel in zip(row, (geometry, contact_length, reaction)):
                 if mine:
                     panel(sheet, axis, mine)
 
 
-STUDY = Study(
-    "first-order-case",
-    "acceleration",
-    variants,
-    vary,
-    columns={
-        "theory": "theory (m/s^1.5)",
-        **{f"fit_{w:g}": f"fit over {100 * w:g} %" for w in WINDOWS},
-        **{name: MEASURES[name] for name in ("lift", "steps", "seconds")},
-    },
-    more=fits,
-    draw=draw,
-)
+COLUMNS = {"theory": "theory (m/s^1.5)"} | {f"fit_{w:g}": f"fit over {100 * w:g} %" for w in WINDOWS}
+COLUMNS |= {name: MEASURES[name] for name in ("lift", "steps", "seconds")}
+STUDY = Study("first-order-case", "acceleration", variants, vary, columns=COLUMNS, more=fits, draw=draw)

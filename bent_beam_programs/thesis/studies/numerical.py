@@ -1,4 +1,6 @@
-"""Studies of numerical parameters: time step, mesh and far field; contact, restitution and damping (thesis 3.3)."""
+"""Studies of numerical parameters: time step, mesh and far field; contact and mass (thesis 3.3.5, Figs 3.22–3.28) with
+their coupling c = W_{j,j±1}/W_jj (:mod:`hermite_fe.contacts`), restitution and damping.
+"""
 
 from __future__ import annotations
 
@@ -16,11 +18,26 @@ from bent_beam_programs.thesis.studies.thesis import MASSES, POINTS, Runs, Setti
 from comparison.readable import readable
 from hermite_fe.contacts import impact_coupling
 
-# The time step h (thesis 3.3.1, Figs 3.7–3.9, Table 3.1).
-
-STEPS_TRIED = (40.0, 4.0, 2.0, 1.0, 0.4)  # times the thesis's
+STEPS_TRIED = (40.0, 4.0, 2.0, 1.0, 0.4)  # times the thesis's (3.3.1, Figs 3.7–3.9, Table 3.1)
 STEP_FACTORS = (4.0, 2.0, 1.0, 0.5)  # times a method's own
 STEPS = ("time_step", "growth", "relative_step")  # fields of an integrator that give the length of its steps
+LENGTHS = (2.0, 1.0, 0.6, 0.3)  # times the thesis's (3.3.2, Figs 3.10–3.16)
+GROWTHS = (1.05, 1.02)
+LENGTH_FACTORS = (2.0, 1.0, 0.5)  # times the elements of a method's own mesh
+PER_ELEMENT = 5.0  # the thesis's a: steps a front spends in each element of the square mesh
+MOST = 6000  # elements of a square mesh
+FAR_GROWTHS = (1.25, 1.1, 1.05, 1.02)
+ABSORBERS = ("far_field", "element")  # parts that may have a viscosity of the grid
+NAMES = {"node": "nodes", "middle": "middles", "mean": "mean gaps", "straight": "middles of straight lines"}
+COEFFICIENTS = (0.0, 0.5, 1.0)  # of restitution; thesis 3.3.4, Figs 3.19–3.21
+RADII = (1.0, 0.8, 0.5, 0.2, 0.0)  # ρ∞; thesis 3.3.3, Figs 3.17, 3.18
+DAMPS: dict[str, Callable[[float], float]] = {
+    "spectral_radius": lambda radius: radius,
+    "theta": lambda radius: 1.0 / (1.0 + radius),
+    "gamma": lambda radius: (3.0 - radius) / (2.0 + 2.0 * radius),
+}
+"""Field of an integrator → its value for ρ∞: the θ-method amplifies ever higher frequencies by (1 − θ)/θ, Newmark's
+with β = (γ + ½)²/4 by (3/2 − γ)/(γ + ½) (Hughes 2000, 9.3)."""
 
 
 def time_step_variants(case: Case) -> list[Variant]:
@@ -42,18 +59,6 @@ def time_step_vary(on: MethodOnCase) -> list[Variant]:
         raise NotVaried(f"its integrator ({type(integrator).__name__}) takes its step from the mesh")
     longer = {f: replace(integrator, **{name: f * value for name, value in steps.items()}) for f in STEP_FACTORS}
     return [on.setting(f"h × {f:g}", on.with_parts(integrator=one), f) for f, one in longer.items()]
-
-
-TIME_STEP = Study("time-step", "time step", time_step_variants, time_step_vary)
-
-
-# The mesh (thesis 3.3.2, Figs 3.10–3.16).
-
-LENGTHS = (2.0, 1.0, 0.6, 0.3)
-GROWTHS = (1.05, 1.02)
-LENGTH_FACTORS = (2.0, 1.0, 0.5)  # times the elements of a method's own mesh
-PER_ELEMENT = 5.0  # the thesis's a: steps a front spends in each element of the square mesh
-MOST = 6000  # elements of a square mesh
 
 
 def square_mesh(case: Case, settings: Settings) -> SquareMesh | None:
@@ -87,15 +92,6 @@ def mesh_vary(on: MethodOnCase) -> list[Variant]:
     """Elements so many times longer, then other growths; the steps stay."""
     mesh = on.part("mesh", filled=True)
     return [on.setting(f"Δx × {f:g}", on.laid_on(mesh.refined(1.0 / f)), f) for f in LENGTH_FACTORS] + on.grown(GROWTHS)
-
-
-MESH = Study("mesh", "mesh", mesh_variants, mesh_vary)
-
-
-# The waves that leave: growth of the elements, absorption at grid scale, a sponge, a longer beam.
-
-FAR_GROWTHS = (1.25, 1.1, 1.05, 1.02)
-ABSORBERS = ("far_field", "element")  # parts that may have a viscosity of the grid
 
 
 def far_field_variants(case: Case) -> list[Variant]:
@@ -133,15 +129,6 @@ def far_field_vary(on: MethodOnCase) -> list[Variant]:
     return found
 
 
-FAR_FIELD = Study("far-field", "far field", far_field_variants, far_field_vary)
-
-
-# The contact point and the mass matrix (thesis 3.3.5, Figs 3.22–3.28), with their coupling c = W_{j,j±1}/W_jj
-# (:mod:`hermite_fe.contacts`).
-
-NAMES = {"node": "nodes", "middle": "middles", "mean": "mean gaps", "straight": "middles of straight lines"}
-
-
 def contact_point_variants(case: Case) -> list[Variant]:
     """Contact at nodes or middles, consistent or lumped mass
 
@@ -171,14 +158,6 @@ def contact_point_vary(on: MethodOnCase) -> list[Variant]:
     return found
 
 
-CONTACT_POINT = Study("contact-point", "contact, mass", contact_point_variants, contact_point_vary)
-
-
-# The coefficient of restitution (thesis 3.3.4, Figs 3.19–3.21): 0, ½ and 1.
-
-COEFFICIENTS = (0.0, 0.5, 1.0)
-
-
 def restitution_variants(case: Case) -> list[Variant]:
     """Coefficient of restitution, middles, lumped mass
 
@@ -187,25 +166,6 @@ def restitution_variants(case: Case) -> list[Variant]:
     """
     runs: Runs = {f"restitution {e:g}": (e, {"restitution": e}) for e in COEFFICIENTS}
     return varied(case, thesis_settings(case.impact, case.end_time), runs)
-
-
-RESTITUTION = Study(
-    "restitution", "restitution", restitution_variants,
-    lambda on: on.over("contact", "restitution", "restitution {:g}", COEFFICIENTS),
-)  # fmt: skip
-
-
-# Numerical damping (thesis 3.3.3, Figs 3.17, 3.18): the spectral radius ρ∞, and bending viscosity at grid scale.
-
-RADII = (1.0, 0.8, 0.5, 0.2, 0.0)
-
-DAMPS: dict[str, Callable[[float], float]] = {
-    "spectral_radius": lambda radius: radius,
-    "theta": lambda radius: 1.0 / (1.0 + radius),
-    "gamma": lambda radius: (3.0 - radius) / (2.0 + 2.0 * radius),
-}
-"""Field of an integrator → its value for ρ∞: the θ-method amplifies ever higher frequencies by (1 − θ)/θ, Newmark's
-with β = (γ + ½)²/4 by (3/2 − γ)/(γ + ½) (Hughes 2000, 9.3)."""
 
 
 def damping_variants(case: Case) -> list[Variant]:
@@ -233,4 +193,12 @@ def damping_vary(on: MethodOnCase) -> list[Variant]:
     ]
 
 
+TIME_STEP = Study("time-step", "time step", time_step_variants, time_step_vary)
+MESH = Study("mesh", "mesh", mesh_variants, mesh_vary)
+FAR_FIELD = Study("far-field", "far field", far_field_variants, far_field_vary)
+CONTACT_POINT = Study("contact-point", "contact, mass", contact_point_variants, contact_point_vary)
+RESTITUTION = Study(
+    "restitution", "restitution", restitution_variants,
+    lambda on: on.over("contact", "restitution", "restitution {:g}", COEFFICIENTS),
+)  # fmt: skip
 DAMPING = Study("damping", "damping", damping_variants, damping_vary)

@@ -11,9 +11,7 @@ from bent_beam_programs.thesis.studies.thesis import Variant, references
 from exudyn_models import CONTACTS, ELEMENTS, INTEGRATORS, ExudynModel
 from exudyn_models.geometry import GEOMETRIES
 
-# Exudyn's penalty contact: stiffness C EI/Δx⁴, damping D √(EIμ)/Δx², spectral radius ρ∞.
-
-STIFFNESS, DAMPING, RADIUS = 10.0, 3.0, 0.5
+STIFFNESS, DAMPING, RADIUS = 10.0, 3.0, 0.5  # penalty C EI/Δx⁴ and D √(EIμ)/Δx², ρ∞
 STEP = 5e-3  # h/t
 SAVED = 250
 RUNS: dict[str, tuple[float | None, tuple[float, float, float]]] = {
@@ -25,10 +23,15 @@ RUNS: dict[str, tuple[float | None, tuple[float, float, float]]] = {
 """Label → (value, (C, D, ρ∞))."""
 TRIED = {"C": ("relative_stiffness", (1.0, 10.0, 100.0)), "D": ("relative_damping", (0.3, 3.0, 30.0))}
 """Of a method: symbol → (field of its contact, values)."""
+# Slopes over the front are of order √τ, τ = t/t* (:class:`exudyn_models.geometry.TrueGeometry`): the end time sets them
+DURATIONS = (1e-3, 1e-2, 3e-2, 1e-1)
+TURN = 1.5  # rad
+COEFFICIENTS = (0.0, 0.3, 0.6)  # of friction, in true geometry: in the linear limit no point slides along the wall
+RUBBING_DURATION = 1e-3  # τ: slopes of about 0.03
+RUBBING_STEP = 1e-2  # h/t
 
 
 def penalised(stiffness: float, damping: float, radius: float, viscosity: float | None = 0.0) -> ExudynModel:
-    """The Exudyn path with a penalty contact."""
     return ExudynModel(
         contact=CONTACTS["penalty"](relative_stiffness=stiffness, relative_damping=damping, hold=0),
         element=ELEMENTS["ancf_cable"](viscosity=viscosity),
@@ -61,20 +64,8 @@ def penalty_vary(on: MethodOnCase) -> list[Variant]:
     return found
 
 
-PENALTY = Study("penalty", "penalty", penalty_variants, penalty_vary)
-
-
-# The range of the linear theory: Exudyn's true geometry at growing slopes against its linear limit on the same mesh.
-#
-# Slopes over the front are of order √τ, τ = t/t* (:class:`exudyn_models.geometry.TrueGeometry`): the end time sets
-# them. The beam is cut where it would turn by more than 1.5 rad; the linear run on the same mesh has the same cut.
-
-DURATIONS = (1e-3, 1e-2, 3e-2, 1e-1)
-TURN = 1.5  # rad
-
-
 def cut(impact: Impact) -> Impact:
-    """The beam, cut where it would turn too far."""
+    """The beam, cut where it would turn too far, in the linear run too."""
     return impact.replace(length=min(impact.length, 2.0 * TURN / impact.curvature))
 
 
@@ -104,17 +95,6 @@ def amplitude_vary(on: MethodOnCase) -> list[Variant]:
     ]
 
 
-AMPLITUDE = Study("amplitude", "geometry", amplitude_variants, amplitude_vary)
-
-
-# Friction at the wall: Exudyn's contact along the cable's segments with Coulomb friction, in true geometry: in the
-# linear limit no point of the beam slides along the wall.
-
-COEFFICIENTS = (0.0, 0.3, 0.6)
-RUBBING_DURATION = 1e-3  # τ: slopes of about 0.03
-RUBBING_STEP = 1e-2  # h/t
-
-
 def friction_variants(case: Case) -> list[Variant]:
     """Friction at the wall, true geometry
 
@@ -130,6 +110,8 @@ def friction_variants(case: Case) -> list[Variant]:
     return found
 
 
+PENALTY = Study("penalty", "penalty", penalty_variants, penalty_vary)
+AMPLITUDE = Study("amplitude", "geometry", amplitude_variants, amplitude_vary)
 FRICTION = Study(
     "friction", "contact", friction_variants,
     lambda on: on.over("contact", "friction", "friction {:g}", COEFFICIENTS),

@@ -35,7 +35,6 @@ Array = NDArray[np.float64]
 WINDOWS = 50
 CUT_OFF = 0.04
 TOUCH = 1e-6  # of V₀t: smaller gaps are contact (the thesis takes 10⁻⁶ m, too much ahead of a thick front)
-
 MEASURES: dict[str, str] = {
     "contact_length_error": "λ₀ error (%)",
     "reaction_error": "r₀ error (%)",
@@ -128,7 +127,6 @@ class Outcome:
 
     @property
     def name(self) -> str:
-        """Method and setting."""
         return f"{self.method}, {self.setting}" if self.setting else self.method
 
     @property
@@ -141,7 +139,6 @@ class Outcome:
 
     @cached_property
     def exact(self) -> Exact:
-        """Theory of the same impact."""
         return Exact(self.impact)
 
     def reaction(self, windows: int = 200) -> tuple[Array, Array]:
@@ -152,17 +149,9 @@ class Outcome:
         return (0.5 * (root[1:] + root[:-1])) ** 2, np.diff(gathered) / np.diff(root**2)
 
     def row(self) -> dict[str, Any]:
-        """JSON-ready: label, setting, path of a reference, value, measures, failure."""
-        return {
-            "label": self.label,
-            "setting": self.setting or None,
-            "refine": self.refine,
-            "reference": self.mark,
-            "value": self.value,
-            **self.measures,
-            "failure": self.failure,
-            "refused": self.refused,
-        }
+        """JSON-ready."""
+        about = {"label": self.label, "setting": self.setting or None, "refine": self.refine, "reference": self.mark}
+        return {**about, "value": self.value, **self.measures, "failure": self.failure, "refused": self.refused}
 
 
 def outcome_of(
@@ -217,10 +206,10 @@ def touching(history: ImpactHistory) -> Array:
 
 def _errors(found: Any, exact: Exact, history: ImpactHistory) -> dict[str, float | None]:
     """Errors of λ₀ and r₀ in per cent, lift and noise."""
-    end, p = float(history.time[-1]), exact.parameters
+    end, p, total = float(history.time[-1]), exact.parameters, history.array("total_impulse")
     length = reaction = None
     if not exact.leading:
-        reaction = 100.0 * (float(history.array("total_impulse")[-1]) / float(exact.impulse(end)) - 1.0)
+        reaction = 100.0 * (float(total[-1]) / float(exact.impulse(end)) - 1.0)
         length = float(found.front[-1]) * history.impact.length_scale / (float(exact.front(end)) or np.nan)
     else:
         try:
@@ -231,12 +220,12 @@ def _errors(found: Any, exact: Exact, history: ImpactHistory) -> dict[str, float
             reaction = 100.0 * (fitted.r0.value / p.r0 - 1.0)
             length = fitted.lambda0.known / (float(p.lambda0) or np.nan)
     edges = np.linspace(0.5 * end, end, WINDOWS + 1)
-    gathered = np.interp(edges, history.time, history.array("total_impulse"))
+    gathered = np.diff(np.interp(edges, history.time, total))
     return {
         "contact_length_error": None if length is None or p.lambda0 <= 0.0 else 100.0 * (length - 1.0),
         "reaction_error": reaction,
         "lift": float(found.lift[-1]),
-        "noise": 100.0 * float(np.std(np.diff(gathered) / np.diff(exact.impulse(edges)))),
+        "noise": 100.0 * float(np.std(gathered / np.diff(exact.impulse(edges)))),
     }
 
 
@@ -253,15 +242,10 @@ def _losses(history: ImpactHistory, exact: Exact, moving: bool) -> dict[str, flo
     if not exact.leading or not math.isfinite(whole) or whole <= 0.0:
         return found
 
-    def lost(*names: str) -> float | None:
-        taken = [float(history.array(name)[-1]) for name in names if name in history]
-        return 100.0 * sum(taken) / whole if taken else None
-
-    strain = history.array("strain_energy")
     # a moving mesh's viscosity is its absorber: that energy has left the zone
     damping = ("loss_algorithmic",) if moving else ("loss_algorithmic", "loss_viscous")
-    return found | {
-        "lost_impact": lost("loss_impact"),
-        "lost_damping": lost(*damping),
-        "strain": None if moving else float(strain[-1] - strain[0]) / float(exact.strain_energy(end)),
-    }
+    for name, losses in (("lost_impact", ("loss_impact",)), ("lost_damping", damping)):
+        taken = [float(history.array(loss)[-1]) for loss in losses if loss in history]
+        found[name] = 100.0 * sum(taken) / whole if taken else None
+    strain = history.array("strain_energy")
+    return found | {"strain": None if moving else float(strain[-1] - strain[0]) / float(exact.strain_energy(end))}

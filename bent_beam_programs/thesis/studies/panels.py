@@ -40,8 +40,8 @@ def unit(largest: float, name: str) -> tuple[float, str]:
     return 10.0**-power, PREFIX[power] + name
 
 
-def line_styles(outcomes: Sequence[Outcome]) -> list[dict[str, Any]]:
-    """A style each: colours in turn for the varied settings, the path's marker for references.
+def _finished(outcomes: Sequence[Outcome]) -> list[tuple[Outcome, dict[str, Any]]]:
+    """The finished ones with a style each: colours in turn for the varied settings, the path's marker for references.
 
     Lines get thinner one after the other, so that those that coincide can all be seen.
     """
@@ -59,11 +59,7 @@ def line_styles(outcomes: Sequence[Outcome]) -> list[dict[str, Any]]:
         else:  # several of one path differ in colour
             colour = style.SEQUENCE[before % len(style.SEQUENCE)]
             found.append({**style.mark(mark), "color": colour, "ls": "-", "lw": 0.6})
-    return found
-
-
-def _finished(outcomes: Sequence[Outcome]) -> list[tuple[Outcome, dict[str, Any]]]:
-    return [(o, line) for o, line in zip(outcomes, line_styles(outcomes)) if o.failure is None and o.time.size]
+    return [(o, line) for o, line in zip(outcomes, found) if o.failure is None and o.time.size]
 
 
 def _thin(along: Array, line: dict[str, Any]) -> Any:
@@ -120,10 +116,8 @@ def _over_time(
     exact, end = runs[0][0].exact, float(runs[0][0].time[-1])
     times = end * np.linspace(0.0, 1.0, 301)[1:] ** 2
     values = np.zeros(0) if theory is None else theory(exact, times)
-    if largest is None:
-        top = max(float(np.abs(y).max(initial=0.0)) for y in (values, *(y for *_, y in runs)))
-    else:
-        top = largest(exact, end)
+    every = (values, *(y for *_, y in runs))
+    top = largest(exact, end) if largest else max(float(np.abs(y).max(initial=0.0)) for y in every)
     (st, mt), (sy, my) = unit(end, "s"), unit(max(top, 1e-12), name)
     axis.set(xlabel=f"$t$  ({mt})" + (", scaled as $\\sqrt{t}$" if root else ""), ylabel=f"{label}  ({my})")
     for o, line, t, y in runs:
@@ -148,7 +142,6 @@ def _front(o: Outcome, line: dict[str, Any]) -> tuple[Array, Array]:
 
 
 contact_length: Panel = partial(_over_time, label=r"$\lambda_c$", name="m", curve=_front, theory=Exact.front)
-"""λ_c over t."""
 
 reaction: Panel = partial(
     _over_time, label="reaction of one side", name="N", theory=Exact.side_reaction,
@@ -188,8 +181,7 @@ def banded(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome]) -> None:
     for o, line in runs:
         if o.steps is None:
             continue
-        found = o.steps.filtered()
-        edges = end * np.linspace(0.0, 1.0, WINDOWS + 1) ** 2
+        found, edges = o.steps.filtered(), end * np.linspace(0.0, 1.0, WINDOWS + 1) ** 2
         cuts = np.searchsorted(o.steps.time, edges)
         low, high = np.array([np.quantile(found[i : max(j, i + 1)], TENTHS) for i, j in pairwise(cuts)]).T
         middle = 0.5 * (edges[1:] + edges[:-1])
@@ -198,22 +190,18 @@ def banded(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome]) -> None:
             sheet.record(axis, st * middle, sy * values, f"{o.label}, {name}")
 
 
-# differences, where curves lie on one another
-
 _NOTHING: dict[str, Any] = {"theory": lambda exact, t: 0.0 * t, "bottom": None, "thin": True}
 
 length_off: Panel = partial(
     _over_time, label=r"$\lambda_c$ $-$ theory", name="m", **_NOTHING,
     curve=lambda o, line: (_front(o, line)[0], _front(o, line)[1] - o.exact.front(_front(o, line)[0])),
 )  # fmt: skip
-"""λ_c less theory's."""
 
 impulse_off: Panel = partial(
     _over_time, label="impulse $-$ theory", name="N s", root=True, **_NOTHING,
     curve=lambda o, line: (o.time, o.side_impulse - o.side_impulse[0] - 0.5 * (
         o.exact.impulse(np.maximum(o.time, 0.0)) - o.exact.impulse(max(float(o.time[0]), 0.0)))),
 )  # fmt: skip
-"""Impulse of one side less theory's."""
 
 
 def less(base: str, what: str, label: str, name: str) -> Panel:
@@ -237,17 +225,13 @@ def geometry_off(base: str) -> Panel:
     def draw(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome]) -> None:
         (first,) = (o for o in outcomes if o.label == base)
         edge = REACH * float(first.exact.front(float(first.time[-1])))
-        curves = [
-            (o, line, x, np.interp(x, first.x, first.gap) - o.gap[o.x <= edge])
-            for o, line in _finished(outcomes)
-            if o.mark is None
-            for x in [o.x[o.x <= edge]]
-        ]
-        largest = max(float(np.abs(y).max()) for *_, y in curves)
+        runs = [(o, line, o.x <= edge) for o, line in _finished(outcomes) if o.mark is None]
+        off = [np.interp(o.x[near], first.x, first.gap) - o.gap[near] for o, _, near in runs]
+        largest = max(float(np.abs(y).max()) for y in off)
         (sx, mx), (sy, my) = unit(edge, "m"), unit(max(largest, 1e-12), "m")
         axis.set(xlabel=f"$x$  ({mx})", ylabel=f"$y$ $-$ that of {base}  ({my})", xlim=(0.0, sx * edge))
-        for o, line, x, y in curves:
-            sheet.line(axis, sx * x, sy * y, series=o.label, **line)
+        for (o, line, near), y in zip(runs, off):
+            sheet.line(axis, sx * o.x[near], sy * y, series=o.label, **line)
 
     return draw
 

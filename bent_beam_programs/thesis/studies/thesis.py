@@ -33,15 +33,12 @@ from hermite_fe.masses import ConsistentMass, LumpedMass, Mass
 from self_similar_fe import SelfSimilarFE
 
 Progress = Callable[[int, int], None]
-
 GROWTH, RADIUS = 1.25, 0.8
 DECADES = 2.0
 CONSISTENT = ConsistentMass()  # (3.1.8)
-
 THESIS_MASS = LumpedMass(rotary=1.0 / 105.0)
 """Half an element at each node and the 4l²/420 that (3.1.8) has on its rotation: of the lumpings tried, the one whose
 lifts and strain energies, with nodes and with middles, come closest to the thesis's (docs/numerics.md)."""
-
 MASSES: dict[str, Mass] = {"lumped": THESIS_MASS, "consistent": CONSISTENT}
 """Which one the thesis used is not known: figures of its runs are drawn with both."""
 
@@ -74,16 +71,14 @@ class Settings:
     mesh: Mesh | None = None
 
     def replace(self, **changes: Any) -> Settings:
-        """A copy with other fields."""
         return dataclasses.replace(self, **changes)
 
     def method(self) -> HermiteFE:
         """The Hermite path with these settings."""
+        scheme = INTEGRATORS["nonsmooth_generalized_alpha"]
         return HermiteFE(
             mesh=self.mesh or GradedMesh(self.element_length, self.growth, zone=self.zone),
-            integrator=INTEGRATORS["nonsmooth_generalized_alpha"](
-                time_step=self.time_step, spectral_radius=self.spectral_radius
-            ),
+            integrator=scheme(time_step=self.time_step, spectral_radius=self.spectral_radius),
             contact=POINTS[self.contact](restitution=self.restitution, hold=self.hold, hold_until=0.0),
             far_field=FAR_FIELDS["sponge" if self.sponge else "viscosity"](viscosity=self.viscosity),
             mass=self.mass,
@@ -126,7 +121,6 @@ class Variant:
 
     @property
     def about(self) -> dict[str, Any]:
-        """Fields that its outcome takes over."""
         mark = self.method.path if self.reference else None
         return {"mark": mark, "setting": self.setting, "refine": self.refine}
 
@@ -137,7 +131,6 @@ class Variant:
         return Outcome(self.label, self.impact, self.value, *curves, numbers, **about)
 
     def history(self) -> ImpactHistory:
-        """The run itself."""
         save = saved_times(self.end_time) if self.save is None else self.save
         return simulated(self.method.simulate, self.impact, end_time=self.end_time, save=save)
 
@@ -148,11 +141,9 @@ Runs = dict[str, tuple[float | None, dict[str, Any]]]
 
 def varied(case: Case, base: Settings, runs: Runs, *more: Variant) -> list[Variant]:
     """Runs with ``base`` but for some changes, ``more`` of them, and the references."""
-    found = [
-        Variant(label, case.impact, case.end_time, base.replace(**changes).method(), value)
-        for label, (value, changes) in runs.items()
-    ]
-    return [*found, *more, *references(case.impact, case.end_time)]
+    about = case.impact, case.end_time
+    own = [Variant(label, *about, base.replace(**new).method(), value) for label, (value, new) in runs.items()]
+    return [*own, *more, *references(*about)]
 
 
 def references(impact: Impact, end_time: float) -> list[Variant]:
@@ -182,7 +173,6 @@ def run_variants(
     asked: Sequence[Variant | Outcome], *, jobs: int = 1, progress: Progress | None = None
 ) -> list[Outcome]:
     """Run all, on ``jobs`` processes; outcomes in order, those among them that were known before."""
-    runs = [one for one in asked if isinstance(one, Variant)]
-    calls = [(run,) for run in runs]
-    done = iter(run_all(_outcome, calls, jobs=jobs, progress=progress, on_death=lambda i, why: runs[i].lost(why)))
+    runs = [(one,) for one in asked if isinstance(one, Variant)]
+    done = iter(run_all(_outcome, runs, jobs=jobs, progress=progress, on_death=lambda i, why: runs[i][0].lost(why)))
     return [next(done) if isinstance(one, Variant) else one for one in asked]
