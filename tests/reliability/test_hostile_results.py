@@ -82,7 +82,6 @@ HOSTILE = {
     "a header that is code": archive({"J": [b"\x93NUMPY\x01\x00\x20\x00__import__('os').system('true')   \n"]}),
     "thousands of entries": archive({f"{number:064d}": [] for number in range(5000)}),
     "a path for a name": archive({"../../evil": [header((1,))]}),
-    "an escape for a name": archive({"\x1b[31m": [header((1,))]}),
 }
 if FUZZ:  # large
     HOSTILE |= {
@@ -135,7 +134,7 @@ def test_mutated_results_are_read_or_refused(tmp_path):
     np.savez(tmp_path / "good.npz", **FIELDS)
     pair()(tmp_path)
     originals = {name: (tmp_path / name).read_bytes() for name in ("good.npz", "run.csv", "run.json")}
-    for _ in range(300):
+    for _ in range(150):
         name = numbers.choice(list(originals))
         data = bytearray(originals[name])
         for _ in range(numbers.randint(1, 5)):
