@@ -139,7 +139,6 @@ def test_damping_ratio_and_loss_factor_are_the_same_time_constant():
         ({"section": PIPE | {"poisson_ratio": 0.51}}, "poisson_ratio"),
         ({"impact": {}}, "impact.velocity is required"),
         ({"impact": {"velocity": 1.0, "drop_height": 1.0}}, "impact.velocity = 1.0 and impact.drop_height"),
-        ({"impact": {"drop_height": 1.0, "gravity_angle": 90.0001}}, "needs gravity towards the wall"),
         ({"impact": {"drop_height": 1.0, "gravity_angle": 90.0}}, "needs gravity towards the wall"),
         ({"beam": {"curvature": 0.1, "loss_factor": 0.1}}, "loss_frequency is required"),
         ({"beam": {"curvature": 0.1, "hysteretic_loss": 0.1}}, "hysteretic_loss .got 0.1 alone.* is at [0-9.]+ Hz"),
@@ -174,7 +173,6 @@ def test_damping_ratio_and_loss_factor_are_the_same_time_constant():
             {"beam": BOW | {"ends": ["hinged", "free"], "axial_force": 1e3}, "impact": {"angular_speed": 1.0}},
             "bends it",
         ),
-        ({"impact": {"drop_height": 1.0, "gravity": 0.0}}, "drop_height = 1.0 needs gravity towards the wall"),
         # what contradicts the model of the beam
         ({"beam": PLAIN | {"model": "timoshenko"}, "section": None}, "needs beam.shear_stiffness"),
         ({"beam": PLAIN | {"rotary_inertia": 1.0}, "section": None}, "no effect without"),

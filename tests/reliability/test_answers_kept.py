@@ -190,7 +190,7 @@ def test_sources_edited_while_a_process_is_open_are_nobody_elses(monkeypatch):
 
 
 @pytest.mark.parametrize(
-    "size", ["section.outer_diameter=1e154", "section.density=5e-324", "beam.length=1e200", "beam.dogleg=1e300"]
+    "size", ["section.outer_diameter=1e154", "section.density=5e-324", "section.outer_diameter=1e55"]
 )
 def test_sizes_that_cannot_be_calculated_with_are_refused_by_name(size):
     assert size.partition(".")[0] in refused("predict", CASES / "drill_pipe.toml", "--theory-only", "--set", size)
