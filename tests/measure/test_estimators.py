@@ -233,6 +233,8 @@ def test_moments_of_a_mesh_that_moves_stand_where_its_nodes_are_then():
     history = history_of(time, x, impact=Impact(2.5, 1.0, 4.0, 0.2, 1.0), position=position, **bent)
     found, place = history.bending_moments(2)
     assert found == pytest.approx(2.5 * (0.6 + 0.2), rel=1e-12) and np.all(place[:, 1] == position[2, 1:])
+    for k in (-1, np.int64(2)):
+        assert np.array_equal(history.bending_moments(k), (found, place))
 
 
 @pytest.mark.parametrize("nodes", [(-2.0, -0.3, 0.5, 2.0), (-2.0, -0.3, 0.0, 0.5, 2.0)])

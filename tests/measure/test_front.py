@@ -14,10 +14,9 @@ from hermite_fe import HermiteFE
 from theory import predict
 
 
-@pytest.mark.parametrize("kappa", [0.3, 0.5])
-def test_the_front_of_a_damped_run_is_where_nodes_are_touched_first_and_late_on_where_the_theory_has_it(kappa) -> None:
+def test_the_front_of_a_damped_run_is_where_nodes_are_touched_first_and_late_on_where_the_theory_has_it() -> None:
     """Within two elements. So little damping is over after some millionths of T*; the theory is the undamped one."""
-    element, impact = 1.0 / 200, Impact.whole_beam(kappa, relative_damping=1e-4)
+    element, impact = 1.0 / 200, Impact.whole_beam(0.3, relative_damping=1e-4)
     method = HermiteFE(mesh=UniformMesh(element)).for_whole_beam(impact)
     history = method.simulate(impact, end_time=0.02, save=np.linspace(0.0, 0.02, 801)[1:])
     x, impulse = history.contact_positions(0), history.array("impulse")

@@ -189,12 +189,9 @@ def test_a_moment_counts_once_a_wave_has_passed_ten_of_the_shortest_elements() -
 
 
 def test_the_largest_moment_off_the_middle_is_on_its_side() -> None:
-    found = []
-    for touch in (0.3, -0.3):
-        impact = Impact.whole_beam(0.5, relative_damping=1e-2).replace(first_touch=touch)
-        method = HermiteFE(mesh=UniformMesh(1.0 / 20)).for_whole_beam(impact)
-        found.append(whole_impact(method.simulate(impact, end_time=0.1, save=100)).peak_moment_place)
-    assert found[0] == pytest.approx(-found[1]) and found[0] > 0.1
+    impact = Impact.whole_beam(0.5, relative_damping=1e-2).replace(first_touch=-0.3)
+    method = HermiteFE(mesh=UniformMesh(1.0 / 20)).for_whole_beam(impact)
+    assert whole_impact(method.simulate(impact, end_time=0.1, save=100)).peak_moment_place < -0.1
 
 
 def test_a_beam_that_has_left_does_not_return_and_one_that_swings_as_wide_as_it_is_away_may() -> None:
