@@ -183,10 +183,9 @@ def test_sources_edited_while_a_process_is_open_are_nobody_elses(monkeypatch):
     monkeypatch.setattr("comparison.store.LOADED", 0.0)
     before = store_module.source_digest()
     store_module.source_digest.cache_clear()
-    assert (
-        store_module.source_digest().startswith(before.split()[0]) and str(os.getpid()) in store_module.source_digest()
-    )
+    found = store_module.source_digest()
     store_module.source_digest.cache_clear()
+    assert found.startswith(before.split()[0]) and str(os.getpid()) in found
 
 
 @pytest.mark.parametrize(
