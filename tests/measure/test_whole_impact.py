@@ -54,7 +54,6 @@ def test_first_release_and_impulse_until_then_are_the_stopped_beam_s(integrator,
         pytest.param(1.5, 1e-3, 200, 0.6161, 2e-4, marks=slow),
         pytest.param(0.5, 1e-3, 400, 0.4563, 5e-4, marks=slow),
         pytest.param(0.5, 1e-2, 200, 0.3364, 2e-4, marks=slow),
-        pytest.param(1.2, 3e-3, 200, 0.6108, 2e-4, marks=slow),
         pytest.param(4.0, 1e-3, 200, 0.616598, 1e-4, marks=slow),  # by modes
     ],
 )

@@ -11,7 +11,6 @@ from types import SimpleNamespace
 
 import pytest
 from called import MAIN, answered, command, refused, started
-from here import CASES
 from strangers import Plain, Unlabelled
 
 from bent_beam import method as methods
@@ -186,13 +185,6 @@ def test_sources_edited_while_a_process_is_open_are_nobody_elses(monkeypatch):
     found = store_module.source_digest()
     store_module.source_digest.cache_clear()
     assert found.startswith(before.split()[0]) and str(os.getpid()) in found
-
-
-@pytest.mark.parametrize(
-    "size", ["section.outer_diameter=1e154", "section.density=5e-324", "section.outer_diameter=1e55"]
-)
-def test_sizes_that_cannot_be_calculated_with_are_refused_by_name(size):
-    assert size.partition(".")[0] in refused("predict", CASES / "drill_pipe.toml", "--theory-only", "--set", size)
 
 
 @pytest.mark.parametrize(("leave", "failed"), [(lambda: os._exit(0), 1), (lambda: os.chdir("/"), 0)])
