@@ -141,6 +141,7 @@ MISREAD = {
     "sizes that overflow": changed("gap", lambda d, v, a: (d, 1e200 * v, a)),
     "no number": changed("gap", lambda d, v, a: (d, np.nan * v, a)),
     "no times": lambda data: data.drop_vars("time"),
+    "a half beam to the left": changed("x", lambda d, v, a: (d, v - 9.0, a)),
     "a beam longer than itself": changed("x", lambda d, v, a: (d, 1e4 * v, a)),
     "the half said to be the full beam": attribute("symmetry", "full"),
     "a symmetry that is none": attribute("symmetry", "none"),
@@ -261,6 +262,7 @@ def test_a_file_without_permission_is_refused():
 EVIL = "\x1b]0;x\x07\x9b31m\u202e<script>alert(1)<|script>"
 TEXTS = {
     "a case's title": "study mesh {case} --set hermite.integrator.kind={evil}",
+    "a case's name": "predict {folder}/{evil}.toml",
     "a setting in JSON": "predict {case} --json --set impact.velocity={evil}",
     "a method's label": "match --methods {methods} --kappa-over-nu 2",
     "a label that is mathematics": "match --methods {mathematics} --kappa-over-nu 2",

@@ -82,6 +82,7 @@ HOSTILE = {
     "a header that is code": archive({"J": [b"\x93NUMPY\x01\x00\x20\x00__import__('os').system('true')   \n"]}),
     "thousands of entries": archive({f"{number:064d}": [] for number in range(5000)}),
     "a path for a name": archive({"../../evil": [header((1,))]}),
+    "an escape for a name": archive({"\x1b[31m": [header((1,))]}),
 }
 if FUZZ:  # large
     HOSTILE |= {
