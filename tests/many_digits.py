@@ -20,11 +20,7 @@ CLOSED: dict[str, Callable[[mp.mpf], tuple[mp.mpf, mp.mpf, mp.mpf]]] = {
     "phi_kappadot": lambda x: (x**2 / 2, 1, -Q2 * x),
     "phi_lambdadot": lambda x: (-3 * x**2, x**4 / 2, 4 * Q2 * x),
     "phi_q": lambda x: ((12 - 7 * x**4) / 12, (x**6 - 36 * x**2) / 24, Q2 * x**3),
-    "phi_r": lambda x: (
-        x**3 * (x**4 - 84) / 192,
-        x * (3 * x**4 - 44) / 32,
-        -(x**2) * (x**4 - 60) / 48 / ROOT,
-    ),
+    "phi_r": lambda x: (x**3 * (x**4 - 84) / 192, x * (3 * x**4 - 44) / 32, -(x**2) * (x**4 - 60) / 48 / ROOT),
     "phi_s": lambda x: (x**2 * (36 - x**4) / 48, (4 - x**4) / 4, x * (x**4 - 24) / 12 / ROOT),
     "phi_t": lambda x: (x**3 / 3, x * (12 - x**4) / 24, -(x**2) / ROOT),
     "one_minus_phi_p": lambda x: (-mp.sqrt(PI / 8) * x, 0, 1),
@@ -34,11 +30,7 @@ CLOSED: dict[str, Callable[[mp.mpf], tuple[mp.mpf, mp.mpf, mp.mpf]]] = {
         x * (3 * x**4 - 12) / 32,
         -(x**2) * (x**4 - 60) / 48 / ROOT,
     ),
-    "phi_kappa_minus_s": lambda x: (
-        -(x**2) * (36 - x**4) / 48,
-        x**4 / 4,
-        -x * (x**4 - 24) / 12 / ROOT,
-    ),
+    "phi_kappa_minus_s": lambda x: (-(x**2) * (36 - x**4) / 48, x**4 / 4, -x * (x**4 - 24) / 12 / ROOT),
 }
 
 

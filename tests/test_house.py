@@ -135,12 +135,6 @@ def test_nothing_reads_the_folder_that_sessions_share():
     assert not [f for f in (*files, ROOT / "Makefile") if word in f.read_text(errors="replace")]
 
 
-def alone(code):
-    here = {"cwd": ROOT, "env": os.environ | {"PYTHONPATH": str(ROOT)}}
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, **here)
-    assert done.returncode == 0, done.stderr[-2000:]
-
-
 ONE_AFTER_ANOTHER = """
 import os, sys, tempfile
 from comparison.command_line.app import run
@@ -165,4 +159,6 @@ loads_no_more_than(allowed | {"numba", "hermite_fe"}, "predict", "cases/ruler.to
 
 def test_a_command_loads_only_what_it_needs():
     """Each of these may load what those before it may, and more."""
-    alone(f"HEAVY = {LEAN | set(PATHS)!r}" + ONE_AFTER_ANOTHER)
+    code, here = f"HEAVY = {LEAN | set(PATHS)!r}" + ONE_AFTER_ANOTHER, os.environ | {"PYTHONPATH": str(ROOT)}
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=ROOT, env=here)
+    assert done.returncode == 0, done.stderr[-2000:]

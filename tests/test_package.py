@@ -58,7 +58,7 @@ def installed(tmp_path_factory):
     return folder / "site"
 
 
-def test_every_file_of_the_packages_is_in_the_wheel(installed):
+def test_every_file_of_the_packages_and_the_example_cases_are_in_the_wheel_under_seven_names(installed):
     missing = [
         str(file.relative_to(ROOT))
         for name in PACKAGES
@@ -67,9 +67,6 @@ def test_every_file_of_the_packages_is_in_the_wheel(installed):
         if not (installed / file.relative_to(ROOT)).is_file()
     ]
     assert not missing
-
-
-def test_the_wheel_installs_seven_names_and_the_example_cases(installed):
     rooms = {"bent_beam", "theory", "hermite_fe", "self_similar_fe", "exudyn_models", "comparison"}
     assert {p.name for p in installed.iterdir() if not p.name.endswith(".dist-info")} == rooms | {"bent_beam_programs"}
     cases = {p.relative_to(ROOT / "cases") for p in (ROOT / "cases").rglob("*.toml")}

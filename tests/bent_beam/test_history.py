@@ -8,8 +8,6 @@ import pytest
 from histories import history_of
 
 from bent_beam import Impact, ImpactHistory
-from self_similar_fe import SelfSimilarFE
-from self_similar_fe.mesh import ExpandingMesh
 
 
 def small(**fields):
@@ -58,13 +56,6 @@ def test_stress_is_that_of_bending_and_of_the_pull_along_the_beam():
         bare = history_of([0.0], x[0], impact=impact, gap=x**2, slope=-2.0 * x)
         assert bare.stress is None
         assert bare.described("", section).stress == pytest.approx(2.0 * (3.0 - 2.0) / 0.5 + 10.0 / 4.0)
-
-
-def test_moments_of_one_instant_do_not_depend_on_how_it_is_counted():
-    """On a mesh that moves, too."""
-    moving = SelfSimilarFE(ExpandingMesh(0.1, decades=1.0)).simulate(Impact.dimensionless(0.5), end_time=0.1, save=5)
-    for k in (3, -2):
-        assert np.array_equal(moving.bending_moments(k), moving.bending_moments(np.int64(k)))
 
 
 def test_numbers_that_are_none_and_broken_files_are_refused(tmp_path):

@@ -14,14 +14,12 @@ from hermite_fe import HermiteFE
 from self_similar_fe import ExpandingMesh, SelfSimilarFE
 
 WHOLE = Impact.whole_beam(0.5, relative_damping=1e-2)
-HEAVY = Impact(2.0, 8.0, 6.0, 0.5 / 3.0, 1.0 / 6.0, damping=0.18)  # the same beam, half of it 3 m long, T* = 18 s
-LOADED = ({"acceleration": 5.0}, {"axial_force": 3.0, "fourth_derivative": 2.0})
 
 
-@pytest.mark.parametrize("impact", [WHOLE, HEAVY, *(WHOLE.replace(**loads) for loads in LOADED)])
-def test_a_run_keeps_its_momentum_and_a_falsified_impulse_energy_or_gap_shows_in_proportion(impact) -> None:
-    half, end = impact.half_length, 0.3 * impact.slow_time_scale
-    history = HermiteFE(mesh=UniformMesh(half / 50)).for_whole_beam(impact).simulate(impact, end_time=end, save=600)
+@pytest.mark.parametrize("loads", [{}, {"acceleration": 5.0}, {"axial_force": 3.0, "fourth_derivative": 2.0}])
+def test_a_run_keeps_its_momentum_and_a_falsified_impulse_energy_or_gap_shows_in_proportion(loads) -> None:
+    impact = WHOLE.replace(**loads)
+    history = HermiteFE(mesh=UniformMesh(1.0 / 50)).for_whole_beam(impact).simulate(impact, end_time=0.3, save=600)
     sound = balance_of(history)
     assert sound.momentum < 5e-4 and sound.gap_of_push < 1e-3 and sound.warnings == []
     assert (sound.second_moment is None) == (impact.axial_force != 0.0)
@@ -32,22 +30,21 @@ def test_a_run_keeps_its_momentum_and_a_falsified_impulse_energy_or_gap_shows_in
     assert "impulse" in more.warnings[0]
     less = balance_of(ImpactHistory.of(data.assign(kinetic_energy=0.97 * data["kinetic_energy"])))
     assert less.initial_energy == pytest.approx(-0.03, abs=1e-9) and "mass is missing" in less.warnings[0]
-    assert balance_of(ImpactHistory.of(data.assign(gap=data["gap"] + 0.01 * half))).gap_of_push > 0.03
+    assert balance_of(ImpactHistory.of(data.assign(gap=data["gap"] + 0.01))).gap_of_push > 0.03
     assert balance_of(ImpactHistory.of(data.isel(time=slice(2, None)))).initial_energy is None
-    in_wall = balance_of(ImpactHistory.of(data.assign(gap=data["gap"] - 0.01 * half)))
+    in_wall = balance_of(ImpactHistory.of(data.assign(gap=data["gap"] - 0.01)))
     assert in_wall.penetration > 0.03 and any("in the wall" in line for line in in_wall.warnings)
     assert sound.middle_slope < 1e-9
     largest = float(np.abs(data["slope"]).max())
     turned = balance_of(ImpactHistory.of(data.assign(slope=data["slope"] + 0.1 * largest)))
     assert turned.middle_slope == pytest.approx(0.1, rel=0.15) and turned.warnings
-    if impact.acceleration and not impact.axial_force:
+    if impact.acceleration:
         worked = balance_of(ImpactHistory.of(data.assign(work_of_loads=1.1 * data["work_of_loads"])))
         assert worked.energy > 1e-2 and any("not accounted for" in line for line in worked.warnings)
 
 
-@pytest.mark.parametrize("damping", [1e-2, 1e-3])
-def test_impulses_in_the_middle_have_no_second_moment_to_be_off(damping: float) -> None:
-    impact = Impact.whole_beam(1.25, relative_damping=damping)
+def test_impulses_in_the_middle_have_no_second_moment_to_be_off() -> None:
+    impact = Impact.whole_beam(1.25, relative_damping=1e-3)
     balance = balance_of(HermiteFE(mesh=UniformMesh(1.0 / 50)).for_whole_beam(impact).simulate(impact, end_time=0.3))
     assert balance.warnings == [] and balance.second_moment < 5e-3
 
@@ -55,23 +52,22 @@ def test_impulses_in_the_middle_have_no_second_moment_to_be_off(damping: float) 
 def test_part_of_a_long_beam_an_expanding_mesh_and_a_beam_under_tension_keep_their_momentum_too() -> None:
     endless, tense = Impact.dimensionless(0.5, epsilon_alpha=2.0), WHOLE.replace(axial_force=3.0)
     expanding = SelfSimilarFE(mesh=ExpandingMesh(front_resolution=0.05, growth=0.05, step_ratio=0.05, decades=2.0))
-    for method in (HermiteFE(domain=6.0), ExudynModel(refine=0.3), expanding):
-        assert balance_of(method.simulate(endless, end_time=0.1)).momentum < 5e-4
+    runs = [one.simulate(endless, end_time=0.1) for one in (HermiteFE(domain=6.0), ExudynModel(refine=0.3), expanding)]
+    assert max(balance_of(run).momentum for run in runs) < 5e-4
     rising = Impact.dimensionless(0.5, epsilon_psi=-3.0)  # its ends bear the shear force of its bow
     assert balance_of(HermiteFE(domain=6.0).simulate(rising, end_time=0.1)).momentum < 5e-4
     method = ExudynModel(mesh=UniformMesh(1.0 / 30))
     assert balance_of(method.simulate(tense, end_time=0.3, save=300)).momentum < 5e-4
-    data = expanding.simulate(endless, end_time=0.1).dataset  # near the zone its gap means something
+    data = runs[2].dataset  # near the zone its gap means something
     inside = balance_of(ImpactHistory.of(data.assign(gap=data["gap"] - 0.02 * data["time"])))
     assert inside.penetration == pytest.approx(0.02, rel=0.1)
     bent = tense.replace(fourth_derivative=2.0)  # its ends pull at a tangent that turns
     assert balance_of(method.simulate(bent, end_time=0.005, save=20)).momentum is None
 
 
-@pytest.mark.parametrize("full_beam", [False, True])
-def test_half_a_beam_and_a_whole_one_bear_their_load_over_their_length(full_beam: bool) -> None:
+def test_a_whole_beam_bears_its_load_over_its_length() -> None:
     loaded = WHOLE.replace(acceleration=5.0)
-    method = HermiteFE(mesh=UniformMesh(1.0 / 20), full_beam=full_beam).for_whole_beam(loaded)
+    method = HermiteFE(mesh=UniformMesh(1.0 / 20), full_beam=True).for_whole_beam(loaded)
     balance = balance_of(method.simulate(loaded, end_time=0.2))
     assert max(balance.momentum, balance.second_moment, balance.initial_energy) < 1e-3
 
@@ -112,16 +108,15 @@ def test_a_pull_counts_where_nothing_is_said_to_be_held() -> None:
     assert taken.pull > 0.05 and any("the wall pulls" in line for line in taken.warnings)
 
 
-@pytest.mark.parametrize("integrator", [GeneralizedAlpha(spectral_radius=0.8), GeneralizedAlpha(spectral_radius=0.95)])
-def test_sound_runs_whose_means_of_the_force_swing_have_nothing_to_warn_of(integrator: GeneralizedAlpha) -> None:
-    history = ExudynModel(integrator=integrator, refine=0.5).simulate(Impact.dimensionless(0.25), end_time=0.1)
+def test_a_sound_run_whose_means_of_the_force_swing_has_nothing_to_warn_of() -> None:
+    method = ExudynModel(integrator=GeneralizedAlpha(spectral_radius=0.95), refine=0.5)
+    history = method.simulate(Impact.dimensionless(0.25), end_time=0.1)
     assert balance_of(history).warnings == history.warnings == []
 
 
-@pytest.mark.parametrize("unit", [1.0, 1e-9])
-def test_a_push_is_small_beside_the_largest_one_however_small_that_is(unit: float) -> None:
+def test_a_push_is_small_beside_the_largest_one_however_small_that_is() -> None:
     """Two nodes push to the end, one of them off the wall by a tenth of V₀t, and one more by next to nothing."""
-    time, x = np.linspace(0.0, 1.0, 11), np.linspace(0.0, 1.0, 3)
+    time, x, unit = np.linspace(0.0, 1.0, 11), np.linspace(0.0, 1.0, 3), 1e-9
     gap = np.outer(time, [0.0, 0.1, 0.2])
     found = balance_of(history_of(time, x, impact=WHOLE, gap=gap, impulse=np.outer(time, [unit, unit, 1e-9 * unit])))
     assert found.gap_of_push == pytest.approx(0.1)

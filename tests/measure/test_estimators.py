@@ -233,6 +233,8 @@ def test_moments_of_a_mesh_that_moves_stand_where_its_nodes_are_then():
     history = history_of(time, x, impact=Impact(2.5, 1.0, 4.0, 0.2, 1.0), position=position, **bent)
     found, place = history.bending_moments(2)
     assert found == pytest.approx(2.5 * (0.6 + 0.2), rel=1e-12) and np.all(place[:, 1] == position[2, 1:])
+    for k in (-1, np.int64(2)):
+        assert np.array_equal(history.bending_moments(k), (found, place))
 
 
 @pytest.mark.parametrize("nodes", [(-2.0, -0.3, 0.5, 2.0), (-2.0, -0.3, 0.0, 0.5, 2.0)])
@@ -242,19 +244,6 @@ def test_the_moment_in_the_middle_needs_no_node_there(nodes):
     gap, slope = -np.outer(time, 0.3 * x**2 + 0.2 * x**3), np.outer(time, 0.6 * x + 0.6 * x**2)
     history = history_of(time, x, impact=Impact(2.5e-3, 1.0, 4.0, 0.2, 1.0), symmetry="full", gap=gap, slope=slope)
     assert peak_moment(history).midspan == pytest.approx(2.5e-3 * (3.0 * 0.6 + 0.2), rel=1e-12)
-
-
-def test_physical_units_drop_out():
-    pipe = Impact(1.2e6, 29.0, 90.0, 0.3 / Impact(1.2e6, 29.0, 90.0, 1.0, 2.0).length_scale, 2.0)
-    history = synthetic(0.3)
-    unit = pipe.mass_per_length * pipe.length_scale * pipe.velocity
-    time, x = history.time * pipe.time_scale, history.positions(0) * pipe.length_scale
-    pushes = {name: history.array(name) * unit for name in ("impulse", "total_impulse")}
-    scaled = history_of(time, x, impact=pipe, **pushes)
-    plain, others = moments(history), moments(scaled)
-    a, b = leading_order(plain), leading_order(others)
-    assert (a.lambda0.value, a.r0.value) == pytest.approx((b.lambda0.value, b.r0.value), rel=1e-10)
-    assert plain.front == pytest.approx(others.front, rel=1e-10)
 
 
 def test_one_run_saved_at_other_times_and_further_is_the_same_run():
@@ -289,15 +278,13 @@ def test_a_whole_beam_has_the_moments_of_its_half_the_uniform_reaction_too():
     assert other.pressure[20:] == pytest.approx(one.pressure[20:], rel=0.02) and one.pressure[-1] > 0.1
 
 
-@pytest.mark.parametrize("mass", [1.0, 1e6])
 @pytest.mark.parametrize(("first", "epsilon"), [((0.0, 0.0, 0.0), 0.0), ((1.0, 0.5, 0.0), 1.0)])
-def test_the_first_front_is_where_the_zone_ends_whatever_the_zone_bears_in_any_unit_of_mass(first, epsilon, mass):
+def test_the_first_front_is_where_the_zone_ends_whatever_the_zone_bears(first, epsilon):
     history, exact = synthetic(0.5, first, epsilon), contact_parameters(0.5, *first)
-    heavy = history_of(history.time, history.positions(0), impulse=mass * history.array("impulse"))
     for tau in history.time[[120, 170, -1]]:
         front = np.sqrt(tau) * (exact.lambda0 + epsilon * exact.lambda1 * tau)
-        assert first_front(heavy, tau)[0] == pytest.approx(front, rel=1e-2)
-    assert first_front(heavy, tau)[1] == 0.0  # of the last instant nothing after it tells how it differs from √t
+        assert first_front(history, tau)[0] == pytest.approx(front, rel=1e-2)
+    assert first_front(history, tau)[1] == 0.0  # of the last instant nothing after it tells how it differs from √t
 
 
 def test_two_saved_instants_tell_the_uniform_reaction_between_them():

@@ -54,7 +54,6 @@ def test_first_release_and_impulse_until_then_are_the_stopped_beam_s(integrator,
         pytest.param(1.5, 1e-3, 200, 0.6161, 2e-4, marks=slow),
         pytest.param(0.5, 1e-3, 400, 0.4563, 5e-4, marks=slow),
         pytest.param(0.5, 1e-2, 200, 0.3364, 2e-4, marks=slow),
-        pytest.param(1.2, 3e-3, 200, 0.6108, 2e-4, marks=slow),
         pytest.param(4.0, 1e-3, 200, 0.616598, 1e-4, marks=slow),  # by modes
     ],
 )
@@ -152,50 +151,27 @@ def recorded(time, impulse, *, gap=0.0, velocity=0.0, **other) -> ImpactHistory:
 
 
 HEAVY = Impact(2.0, 8.0, 6.0, 2.0, 0.5)  # κ/ν = 2, ℓ = 3 m, T* = 18 s
-UNITS = {"gap": 9.0, "slope": 3.0, "velocity": 0.5, "impulse": 12.0, "total_impulse": 12.0, "kinetic_energy": 6.0,
-         "strain_energy": 6.0, "contact_energy": 6.0}  # fmt: skip
 
 
 @pytest.mark.parametrize(("again", "shortest"), [(3.0, 2e-3), (0.6, 0.2)])
-def test_in_other_units_an_impact_is_the_same_and_what_springs_of_the_wall_hold_is_not_lost(again, shortest) -> None:
+def test_what_springs_of_the_wall_hold_is_not_lost(again, shortest) -> None:
     run = pushed_until(0.5, last=4.0, again=again)
     time = run.dataset["time"]
-    held, lost = 0.05 * time, 0.1 * (time > again)
-    swung = run.dataset["gap"] * (1.1 + np.cos(4.0 * np.pi * time))  # it comes near the wall again
-    swings, given = 0.2 + 0.0 * time, 0.03 * (time > 3.9)
-    moves = 1.0 - held - lost - swings + given
-    run = ImpactHistory.of(
-        run.dataset.assign(contact_energy=held, kinetic_energy=moves, strain_energy=swings, gap=swung)
-    )
-    assert whole_impact(run, shortest=shortest).energy_gain == pytest.approx(0.03)
-    fields = {name: unit * run.array(name) for name, unit in UNITS.items()}
-    other = history_of(18.0 * run.time, 3.0 * run.positions(0), impact=HEAVY, **fields)
-    one, same = (dataclasses.asdict(whole_impact(history, shortest=shortest)) for history in (run, other))
-    for pairs in ("contacts", "returns"):
-        assert one[pairs] and np.ravel(same.pop(pairs)) == pytest.approx(np.ravel(one.pop(pairs)))
-    same["push_time"] = one["push_time"]  # a steady force is largest anywhere
-    drift, within = one.pop("drift"), one["within"]
-    assert same.pop("drift") == pytest.approx(drift)
-    assert drift["dissipated"] == pytest.approx(0.05 * within) and drift["restitution"] == 0.0  # what springs take up
-    assert same == pytest.approx(one | {"supplied": 6.0 * one["supplied"]})
-    for hit, alike in zip(hits(run), hits(other), strict=True):
-        numbers = np.array(dataclasses.astuple(hit)[1:])
-        assert dataclasses.astuple(alike)[1:] == pytest.approx(numbers * [18.0, 18.0, 3.0, 12.0, 0.5, 0.5, 6.0, 6.0])
-    assert (hit.energy, hit.lost) == pytest.approx((0.9, 0.1))
+    held, lost, given = 0.05 * time, 0.1 * (time > again), 0.03 * (time > 3.9)
+    run = ImpactHistory.of(run.dataset.assign(contact_energy=held, kinetic_energy=1.0 - held - lost + given))
+    found, hit = whole_impact(run, shortest=shortest), hits(run)[-1]
+    assert found.energy_gain == pytest.approx(0.03) and (hit.energy, hit.lost) == pytest.approx((0.9, 0.1))
+    assert found.drift["restitution"] == 0.0
+    assert found.drift["dissipated"] == pytest.approx(0.05 * found.within)  # what springs take up
 
 
 def test_what_a_moment_may_have_been_at_first_is_a_share_of_that_of_a_stopped_point() -> None:
     """0.7 V₀√(EIμ) within the first instants of a damped beam, which its elements do not resolve."""
     time, x = np.linspace(0.0, 4.0, 4001), np.linspace(0.0, 1.0, 5)
-    wire = Impact.whole_beam(2.0).replace(mass_per_length=1e-6, bending_stiffness=1e-6)
-    for impact, length, moment in ((Impact.whole_beam(2.0), 1.0, 1.0), (HEAVY, 3.0, 2.0), (wire, 1.0, 1e-6)):
-        seconds = impact.slow_time_scale
-        impulse = np.minimum(time, 0.5)[:, None] * 2.0 * length * impact.velocity * impact.mass_per_length * (x == 0.0)
-        found = recorded(
-            seconds * time, impulse, x=length * x, impact=impact.replace(damping=1e-6 * seconds), velocity=0.0,
-            largest_moment=moment * np.where(time < 0.002, 0.7, 0.4), largest_moment_place=0.0 * time,
-        )  # fmt: skip
-        assert whole_impact(found).moment_left_out == pytest.approx(0.7)
+    wire = Impact.whole_beam(2.0, relative_damping=1e-6).replace(mass_per_length=1e-6, bending_stiffness=1e-6)
+    moments = {"largest_moment": 1e-6 * np.where(time < 0.002, 0.7, 0.4), "largest_moment_place": 0.0 * time}
+    found = recorded(time, 2e-6 * np.outer(np.minimum(time, 0.5), x == 0.0), x=x, impact=wire, **moments)
+    assert whole_impact(found).moment_left_out == pytest.approx(0.7)
 
 
 def test_a_moment_counts_once_a_wave_has_passed_ten_of_the_shortest_elements() -> None:
@@ -212,12 +188,9 @@ def test_a_moment_counts_once_a_wave_has_passed_ten_of_the_shortest_elements() -
 
 
 def test_the_largest_moment_off_the_middle_is_on_its_side() -> None:
-    found = []
-    for touch in (0.3, -0.3):
-        impact = Impact.whole_beam(0.5, relative_damping=1e-2).replace(first_touch=touch)
-        method = HermiteFE(mesh=UniformMesh(1.0 / 20)).for_whole_beam(impact)
-        found.append(whole_impact(method.simulate(impact, end_time=0.1, save=100)).peak_moment_place)
-    assert found[0] == pytest.approx(-found[1]) and found[0] > 0.1
+    impact = Impact.whole_beam(0.5, relative_damping=1e-2).replace(first_touch=-0.3)
+    method = HermiteFE(mesh=UniformMesh(1.0 / 20)).for_whole_beam(impact)
+    assert whole_impact(method.simulate(impact, end_time=0.1, save=100)).peak_moment_place < -0.1
 
 
 def test_a_beam_that_has_left_does_not_return_and_one_that_swings_as_wide_as_it_is_away_may() -> None:
@@ -282,7 +255,7 @@ def test_a_beam_whose_bow_opens_on_its_way_arrives_with_its_mean_velocity() -> N
     assert found.translation == pytest.approx(means[1] ** 2 / found.supplied, rel=5e-3)
 
 
-def test_a_rocking_beam_keeps_momentum_and_energy_and_one_that_hardly_rocks_is_the_half_beam() -> None:
+def test_a_rocking_beam_keeps_momentum_and_energy() -> None:
     impact = Impact.whole_beam(0.5, relative_damping=1e-2)
     history = COARSE.simulate(impact.replace(rotation=0.5, first_touch=0.2), end_time=0.4, save=400)
     x, velocity = history.positions(0), history.array("velocity")
@@ -292,10 +265,6 @@ def test_a_rocking_beam_keeps_momentum_and_energy_and_one_that_hardly_rocks_is_t
     assert spin == pytest.approx(spin[0], abs=2e-3)
     assert history.array("kinetic_energy")[0] == pytest.approx(1.0 + 0.5**2 / 3.0, rel=1e-3)
     assert abs(history.energy_budget()["defect"]) < 1e-9 and history.array("gap").min() > -1e-9
-    full = COARSE.simulate(impact.replace(first_touch=1e-12), end_time=0.2, save=50)
-    half = COARSE.for_whole_beam(impact).simulate(impact, end_time=0.2, save=50)
-    assert full.dataset.attrs["symmetry"] == "full"
-    assert full.array("total_impulse")[-1] == pytest.approx(half.array("total_impulse")[-1], rel=1e-9)
     off_first = Impact.whole_beam(0.5).replace(rotation=-3.0, first_touch=0.5)
     assert "rotation" in str(HermiteFE().refuses(off_first))
 
@@ -351,7 +320,9 @@ def test_the_largest_force_is_told_in_half_the_beams_momentum_a_period() -> None
 def test_the_largest_push_of_a_wall_that_gives_way_lies_between_saved_instants() -> None:
     """The force is smooth: eight times fewer instants tell it as well, though not at the instants themselves."""
     impact = Impact.whole_beam(0.5, relative_damping=1e-2).replace(wall_stiffness=2e4)
-    fine, coarse = (whole_impact(COARSE.simulate_to_separation(impact, save=save)) for save in (8000, 1000))
+    saved = (np.linspace(0.0, 0.3, count + 1)[1:] for count in (2400, 300))
+    method = COARSE.for_whole_beam(impact)
+    fine, coarse = (whole_impact(method.simulate(impact, end_time=0.3, save=save)) for save in saved)
     assert coarse.push == pytest.approx(fine.push, rel=2e-4)
     assert coarse.push - coarse.push_rise < (1.0 - 1e-3) * fine.push
 

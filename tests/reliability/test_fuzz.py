@@ -134,7 +134,7 @@ rubbish = st.one_of(
 )
 
 
-@fuzz(25, 3000)
+@fuzz(15, 3000)
 @given(st.one_of(problems(), damaged(), rubbish), st.lists(st.one_of(decades(-12.0, 12.0), st.just(0.0)), max_size=3))
 def test_predict_answers_or_refuses_any_case(content, times):
     options = [word for time in times for word in ("--time", repr(time))]
@@ -149,7 +149,7 @@ RUBBISH = (
 words = st.one_of(st.sampled_from(RUBBISH), st.text(max_size=10).filter(lambda text: "\0" not in text))
 
 
-@fuzz(15, 800)
+@fuzz(10, 800)
 @given(
     st.sampled_from(["theory", "predict", "simulate", "match --unknown", "rerun", "study --unknown", "nothing", ""]),
     st.lists(words, max_size=6),
@@ -199,7 +199,7 @@ def simulate(path, tables, elements, chosen):
         ImpactHistory.load(history)
 
 
-@fuzz(8, 900)
+@fuzz(5, 900)
 @given(
     problems(loads),
     st.one_of(st.integers(3, 40), st.sampled_from([1, 10**7, 10**300])),
@@ -211,7 +211,7 @@ def test_the_hermite_path_finishes_or_says_why_not(tables, elements, growth, cho
     simulate("hermite", tables, elements, chosen | {"hermite.integrator.growth": repr(growth)})
 
 
-@fuzz(8, 250)
+@fuzz(5, 250)
 @given(problems(loads), st.integers(3, 16), st.floats(0.02, 0.5), parts(exudyn_models.ExudynModel))
 def test_the_exudyn_path_finishes_or_says_why_not(tables, elements, relative, chosen):
     if chosen.get("exudyn.integrator.kind") in ('"generalized_alpha"', '"newmark"', '"trapezoidal"'):

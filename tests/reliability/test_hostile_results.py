@@ -135,7 +135,7 @@ def test_mutated_results_are_read_or_refused(tmp_path):
     np.savez(tmp_path / "good.npz", **FIELDS)
     pair()(tmp_path)
     originals = {name: (tmp_path / name).read_bytes() for name in ("good.npz", "run.csv", "run.json")}
-    for _ in range(300):
+    for _ in range(150):
         name = numbers.choice(list(originals))
         data = bytearray(originals[name])
         for _ in range(numbers.randint(1, 5)):

@@ -41,23 +41,9 @@ COMMANDS = {
     "new": "new out/beam.toml --overwrite",
 }
 SOME = COMMANDS if FUZZ else ["new"]
-SLEEP = """
+A_COMMAND = """
 import time
 from pathlib import Path
-from comparison.command_line import app
-from comparison.workers import run_all
-
-def match(**_):
-    Path("ready").touch()
-    run_all(time.sleep, [(60.0,)] * 3, jobs=2, on_death=lambda i, why: why)
-
-app.app = match
-app.main(["match"])
-"""
-WRITE = """
-import time
-from pathlib import Path
-from bent_beam import files
 from comparison.command_line import app
 
 def slowly(_):
@@ -65,30 +51,27 @@ def slowly(_):
     for _ in range(3000):  # a signal just before one long sleep would wait for its end
         time.sleep(0.02)
 
-def new(**_):
+def command(**_):
+{body}
+
+app.app = command
+app.main(["{name}"])
+"""
+SLEEP = """
+    from comparison.workers import run_all
+    Path("ready").touch()
+    run_all(time.sleep, [(60.0,)] * 3, jobs=2, on_death=lambda i, why: why)
+"""
+WRITE = """
+    from bent_beam import files
     files.os.fsync = slowly
     files.write_atomically(Path("out/beam.toml"), "text")
-
-app.app = new
-app.main(["new"])
 """
-
-
 LOADS = """
-import time
-from pathlib import Path
-from comparison.command_line import app
-
-def new(**_):
     try:
-        Path("ready").touch()
-        for _ in range(3000):
-            time.sleep(0.02)
+        slowly(None)
     except KeyboardInterrupt:
         raise ImportError("initialization failed")
-
-app.app = new
-app.main(["new"])
 """
 
 
@@ -105,6 +88,14 @@ def command(name, folder, before=""):
     short = CASE.replace("length = 20.0", "length = 2.0\ndamping = 0.01")
     (folder / "case.toml").write_text(f"{short}[run]\nend_time = 0.01\n")
     return at_work(before + (FEW_ROWS if name == "report" else "") + MAIN, folder, *COMMANDS[name].split())
+
+
+def interrupted(process, send, how):
+    """The one line that the command says."""
+    send(process.pid, how)
+    out, err = process.communicate(timeout=30)
+    assert process.returncode == 130 and out == "" and err.count("\n") == 1, err
+    return err
 
 
 def written(folder):
@@ -132,29 +123,23 @@ def readable(file: Path) -> bool:
 @pytest.mark.parametrize("after", [0.0, *(pytest.param(s, marks=pytest.mark.verify) for s in (0.4, 1.5))])
 def test_workers_end_with_the_command_and_say_nothing(after, tmp_path):
     """Two workers asleep, or still starting: Ctrl-C reaches all processes of a terminal at once."""
-    process = at_work(SLEEP, tmp_path)
+    process = at_work(A_COMMAND.format(body=SLEEP, name="match"), tmp_path)
     time.sleep(after)
-    os.killpg(process.pid, signal.SIGINT)
-    out, err = process.communicate(timeout=30)
-    assert process.returncode == 130 and out == "" and err.count("\n") == 1 and "goes on from there" in err, err
+    assert "goes on from there" in interrupted(process, os.killpg, signal.SIGINT)
     until(lambda: ended(process.pid), 20.0)
 
 
 @pytest.mark.parametrize("how", ["SIGTERM", *(pytest.param(s, marks=pytest.mark.verify) for s in ("SIGINT", "SIGHUP"))])
 def test_a_file_that_is_being_written_is_whole_or_not_there(how, tmp_path):
-    process = at_work(WRITE, tmp_path)
-    process.send_signal(getattr(signal, how))
-    out, err = process.communicate(timeout=30)
-    assert process.returncode == 130 and out == "" and err.count("\n") == 1 and "no half of a file" in err, err
+    process = at_work(A_COMMAND.format(body=WRITE, name="new"), tmp_path)
+    assert "no half of a file" in interrupted(process, os.kill, getattr(signal, how))
     assert list((tmp_path / "out").iterdir()) == []
 
 
 def test_a_library_that_is_interrupted_while_it_loads_is_no_missing_library(tmp_path):
     """Exudyn says that its module could not be imported."""
-    process = at_work(LOADS, tmp_path)
-    process.send_signal(signal.SIGINT)
-    out, err = process.communicate(timeout=30)
-    assert process.returncode == 130 and out == "" and err.count("\n") == 1 and "interrupted" in err, err
+    process = at_work(A_COMMAND.format(body=LOADS, name="new"), tmp_path)
+    assert "interrupted" in interrupted(process, os.kill, signal.SIGINT)
 
 
 @pytest.mark.verify

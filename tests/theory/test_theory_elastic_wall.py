@@ -12,7 +12,14 @@ from benchmarks.wall import settled
 from bent_beam import Impact
 from theory import contact_parameters, elastic_wall, predict, wall_prediction
 from theory.elastic_stop import SwungBeam
-from theory.elastic_wall import _loads, flat_limit, peak_force, sharp_limit, wall_history
+from theory.elastic_wall import _loads, flat_limit, sharp_limit, wall_history
+
+peak_force = cache(elastic_wall.peak_force)
+
+
+@pytest.fixture(autouse=True)
+def each_wall_is_solved_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(wall_prediction, "peak_force", peak_force)
 
 
 def largest_force_by_modes(kappa_over_nu, damping_ratio, end, half, dx, damping=0.0):
@@ -61,14 +68,6 @@ def test_a_sharp_bow_is_pushed_at_one_point() -> None:
     assert found.time == pytest.approx(limit.time * 100.0**0.25, rel=0.01)
 
 
-def test_after_a_damped_wall_the_rigid_ones_law_comes_back_with_a_longer_zone() -> None:
-    ratio, end = 0.5, 60.0
-    found, rigid = wall_history(ratio, 1.0, end=end, cells=60, steps=160), contact_parameters(ratio)
-    assert found.impulse[-1] == pytest.approx(4.0 * math.sqrt(2.0 / math.pi * end) * rigid.r0, rel=2e-3)
-    offset = found.half_contact_length[-1] - rigid.lambda0 * math.sqrt(end)
-    assert offset == pytest.approx(math.sqrt(2.0), abs=0.15)
-
-
 @pytest.mark.parametrize("shear", [0.0, 0.7, 3.0])
 def test_the_rim_is_as_far_ahead_of_the_force_as_on_a_beam_on_springs(shear) -> None:
     """EI w⁗ − (EI k/S) w″ + k w = 0 behind the rim, where w = 0: the force is Σ 1/r behind it, of a rigid wall l_s."""
@@ -82,8 +81,7 @@ def test_the_rim_is_as_far_ahead_of_the_force_as_on_a_beam_on_springs(shear) -> 
     assert (soft.reaction, soft.impulse) == (rigid.reaction, rigid.impulse)
 
 
-@pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_the_largest_force_is_given_up_where_loads_change_a_rigid_wall_s_by_2_percent(sign) -> None:
+def test_the_largest_force_is_given_up_where_loads_change_a_rigid_wall_s_by_2_percent() -> None:
     beam = Impact(1.0, 1.0, 400.0, 0.005, 0.01, wall_stiffness=1.0)
     at = predict(beam).wall.peak_force_time
 
@@ -91,10 +89,10 @@ def test_the_largest_force_is_given_up_where_loads_change_a_rigid_wall_s_by_2_pe
         one, other = (predict(beam.replace(wall_stiffness=None, acceleration=a), at).times[0] for a in (load, 0.0))
         return abs(one.reaction / other.reaction - 1.0)
 
-    load = 1e-6 * sign
-    load *= 0.02 / change(load)  # linear in small loads
-    said = [predict(beam.replace(acceleration=share * load)).wall.spoiled_by for share in (0.9, 1.1)]
-    assert said == [None, "first-order correction"]
+    for load in (1e-6, -1e-6):
+        enough = load * 0.02 / change(load)  # linear in small loads
+        said = [predict(beam.replace(acceleration=share * enough)).wall.spoiled_by for share in (0.9, 1.1)]
+        assert said == [None, "first-order correction"]
 
 
 @pytest.mark.parametrize(("ratio", "damping", "end"), [(1.0, 0.0, 60.0), (20.0, 0.0, 120.0), (0.7, 0.25, 100.0)])
@@ -128,8 +126,7 @@ def test_the_beam_s_own_damping_spoils_the_largest_force_from_2_percent_on() -> 
     assert spoiled == [None, "damping"]
 
 
-def test_prediction_in_si_units(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(wall_prediction, "peak_force", peak_force := cache(elastic_wall.peak_force))
+def test_prediction_in_si_units() -> None:
     pipe = Impact(1.2e6, 29.0, 90.0, 0.002, 2.0, wall_stiffness=2e8, wall_damping=3e4)
     found, f = predict(pipe), peak_force(pipe.kappa_over_nu, 3e4 / (2.0 * math.sqrt(2e8 * 29.0)))
     assert found.wall is not None
@@ -147,8 +144,7 @@ def test_prediction_in_si_units(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_a_damped_wall_gives_longest_after_its_force_and_a_beam_may_have_ended_by_then() -> None:
     """κ/ν = 3, ζ = 4.5: the force is largest at .15 t_k, the penetration at 8 t_k; waves are back at some .01 T*."""
-    found = elastic_wall.peak_force(3.0, 4.5)
-    whole = elastic_wall.wall_history(3.0, 4.5, end=20.0, cells=60, steps=300)
+    found, whole = peak_force(3.0, 4.5), wall_history(3.0, 4.5, end=12.0, cells=30, steps=120)
     deepest = whole.time[whole.penetration.argmax()]
     assert found.time < 0.2 < 7.0 < deepest < 10.0 and found.penetration_time == pytest.approx(deepest, rel=0.05)
     assert found.penetration == pytest.approx(whole.penetration.max(), rel=1e-2)

@@ -100,12 +100,12 @@ def test_the_limit_from_the_ends_is_ten_diffusion_lengths_or_a_third_of_the_beam
         assert distance == pytest.approx(10.0 * math.sqrt(found.valid_until), rel=1e-12)
 
 
-@pytest.mark.parametrize("damping", [0.0, 1e-4, 1e-3, 3e-3])
+@pytest.mark.parametrize("damping", [0.0, 1e-4, 3e-3])
 def test_one_point_is_the_stopped_beam_to_two_per_cent_until_the_limit(damping: float) -> None:
     """A beam of finite length by its modes; for the undamped one with so little damping that nothing is left of it."""
     impact, beam = Impact.whole_beam(2.0, relative_damping=damping), StoppedBeam(damping or 1e-6)
     until = predict(impact).valid_until
-    times = until * np.linspace(0.2 if damping == 0.0 else 0.01, 2.0, 400)
+    times = until * np.linspace(0.2 if damping == 0.0 else 0.01, 2.0, 200)
     rows, inside = predict(impact, times).times, times <= until
     impulse = np.abs([row.impulse for row in rows] / beam.impulse(times) - 1.0)
     assert impulse[inside].max() < 0.02
@@ -116,13 +116,13 @@ def test_one_point_is_the_stopped_beam_to_two_per_cent_until_the_limit(damping: 
         assert impulse.max() > 0.02
 
 
-@pytest.mark.parametrize("damping", [1e-7, 1e-6, 3e-6, 1e-5])
+@pytest.mark.parametrize("damping", [1e-7, 3e-6, 1e-5])
 def test_the_momentary_force_holds_until_short_waves_are_back_from_the_ends(damping: float) -> None:
     impact, beam = Impact.whole_beam(2.0, relative_damping=damping), StoppedBeam(damping)
     found = predict(impact)
 
     def off(begin: float, end: float) -> float:
-        times = np.linspace(begin, end, 2000)
+        times = np.linspace(begin, end, 800)
         force = [row.reaction for row in predict(impact, times).times]
         return float(np.abs(force / beam.reaction(times) - 1.0).max())
 
@@ -134,14 +134,15 @@ def test_the_momentary_force_holds_until_short_waves_are_back_from_the_ends(damp
 
 
 def test_without_damping_the_force_over_a_tenth_of_the_time_holds_as_long_as_its_waves_cancel() -> None:
-    beam, found = StoppedBeam(1e-12), predict(Impact.whole_beam(2.0))
+    impact, beam = Impact.whole_beam(2.0), StoppedBeam(1e-10)  # so little that its waves cancel as without
 
     def off(end: float) -> float:
-        times = np.linspace(0.5 * end, end, 500)
+        times = np.linspace(0.5 * end, end, 200)
         means = (beam.impulse(1.1 * times) - beam.impulse(0.9 * times)) / (0.2 * times)
-        return float(np.abs([row.reaction for row in predict(Impact.whole_beam(2.0), times).times] / means - 1.0).max())
+        return float(np.abs([row.reaction for row in predict(impact, times).times] / means - 1.0).max())
 
-    assert off(found.force_until) < 0.02 < off(3.0 * found.force_until)
+    until = predict(impact).force_until
+    assert off(until) < 0.02 < off(3.0 * until)
 
 
 def test_a_quartic_bow_sends_waves_from_its_ends() -> None:
@@ -259,9 +260,12 @@ def test_the_moment_ahead_of_a_damped_point_has_no_number_in_its_first_75_dampin
     assert spread.peak_moment == pytest.approx(peak_moment(0.3).largest, rel=1e-12) and not spread.valid
 
 
-@pytest.mark.parametrize(("age", "share"), [(1e-3, 0.24), (damped_point.AHEAD_FROM, 0.98 * 0.5597868)])
-def test_the_elastic_moment_ahead_of_a_damped_point_becomes_that_without_damping(age: float, share: float) -> None:
-    """Over that at the contact; times in η, places in √(cη). The inverse of e^{−aX}(cos aX − sin aX)/(s√(1 + s))."""
+@pytest.mark.parametrize(
+    ("age", "near", "share"), [(1e-3, 12.25, 0.24), (damped_point.AHEAD_FROM, 2.5, 0.98 * 0.5597868)]
+)
+def test_the_elastic_moment_ahead_of_a_damped_point_becomes_that_without_damping(age, near, share) -> None:
+    """Over that at the contact; times in η, places in √(cη), the largest near a multiple of the root of the age. The
+    inverse of e^{−aX}(cos aX − sin aX)/(s√(1 + s))."""
 
     def moment(place: float) -> float:
         def transform(s: mp.mpc) -> mp.mpc:
@@ -271,7 +275,7 @@ def test_the_elastic_moment_ahead_of_a_damped_point_becomes_that_without_damping
         return float(mp.invertlaplace(transform, age, method="talbot"))
 
     with mp.workdps(20):
-        ahead = max(-moment(place) for place in np.linspace(1.5, 15.0, 55) * math.sqrt(age))
+        ahead = max(-moment(place) for place in np.linspace(0.7, 1.3, 7) * near * math.sqrt(age))
     assert ahead / float(damped_point.elastic_moment_ratio(age)) == pytest.approx(share, rel=5e-3)
 
 

@@ -111,8 +111,3 @@ def test_both_sides_of_the_front_meet_to_second_order(ratio: float, loads: tuple
         assert left < 1e-9
         assert float(r0) == pytest.approx(float(parameters.r0), rel=1e-9)
         assert (float(r1), float(r2)) == pytest.approx((found.r1, found.r2), rel=1e-7)
-
-
-def test_one_point_without_tension_is_a_linear_problem() -> None:
-    found = second_order(contact_parameters(2.0, 1.0, -3.0, 2.0))
-    assert (found.lambda2, found.r2) == pytest.approx((0.0, 0.0), abs=1e-13)

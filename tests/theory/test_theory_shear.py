@@ -9,8 +9,7 @@ from theory import contact_parameters, predict
 from theory.shear import StoppedPoint, early_until, early_zone, first_instants, forgotten_after, rim
 
 
-@pytest.mark.parametrize("g", [0.2, 0.33])
-@pytest.mark.parametrize("damping", [0.0, 0.3])
+@pytest.mark.parametrize(("g", "damping"), [(0.2, 0.3), (0.33, 0.0)])
 def test_a_stopped_point_is_the_inverse_of_its_transform_by_another_method(g: float, damping: float) -> None:
     """De Hoog's quotient-difference in many digits, of waves found as roots of Timoshenko's dispersion relation."""
 
@@ -28,7 +27,7 @@ def test_a_stopped_point_is_the_inverse_of_its_transform_by_another_method(g: fl
     point = StoppedPoint(g, damping)
     for time in (0.1, 1.0, 6.0):
         with mp.workdps(30):
-            exact = float(mp.invertlaplace(impulse, time, method="dehoog", degree=60))
+            exact = float(mp.invertlaplace(impulse, time, method="dehoog", degree=40))
         assert float(point.impulse(time)) == pytest.approx(exact, rel=2e-6)
     times = np.array([0.5, 5.0, 50.0])
     rate = (point.impulse(times * 1.0001) - point.impulse(times * 0.9999)) / (2e-4 * times)
