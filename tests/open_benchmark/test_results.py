@@ -1,14 +1,12 @@
 """What a result file may hold, and what a score says of it."""
 
 from contextlib import nullcontext
-from dataclasses import replace
 
 import numpy as np
 import pytest
 from histories import history_of
 
 from bent_beam import Impact
-from bent_beam.meshes import UniformMesh
 from bent_beam.method import method_type
 from bent_beam_programs.open_benchmark.histories import result_from_history
 from bent_beam_programs.open_benchmark.problem import problem
@@ -70,6 +68,8 @@ def test_a_result_that_is_written_as_csv_scores_the_same_bits(tmp_path):
         ({"J_minus": -np.ones(400)}, "J_minus is the size of the tensile impulse"),
         ({"x": np.zeros(3)}, "snap_tau is missing next to x"),
         ({"x": np.zeros(3), "snap_tau": np.zeros(2), "snap_gap": np.zeros((3, 2))}, "must have shape (2, points)"),
+        ({"x": np.zeros(3), "snap_tau": np.zeros(0), "snap_gap": np.zeros((2, 3))}, "must have shape (0, points)"),
+        ({"x": np.zeros(3), "snap_tau": np.zeros(2), "snap_gap": np.zeros((0, 3))}, "snap_gap is empty"),
     ],
 )
 def test_a_malformed_result_gets_one_line_naming_the_field(tmp_path, changes, words):
@@ -93,33 +93,25 @@ def test_a_malformed_table_gets_one_line_naming_the_file_once_and_the_field(tmp_
     assert words in refusal(tmp_path / "run.csv")
 
 
-@pytest.mark.parametrize(
-    ("changes", "outcome", "reason"),
-    [
-        ({"J": np.zeros(400)}, "invalid", "J and Jm"),  # a wall that never pushes
-        ({"outcome": "unsupported(no axial force)", "J": None}, "unsupported(no axial force)", "no axial force"),
-    ],
-)
-def test_a_result_without_numbers_is_kept_with_its_reason_and_not_scored(tmp_path, changes, outcome, reason):
-    found = score(load_result(written(tmp_path, **changes)))
-    assert found.outcome == outcome and found.measured == {} and reason in str(found.reason)
+def test_a_result_without_numbers_is_kept_with_its_reason_and_not_scored():
+    asked = scored("leading-0.5", tau=TAU, J=0.0 * TAU, Jm=0.0 * TAU)  # a wall that never pushes
+    assert asked.outcome == "invalid" and asked.measured == {} and "J and Jm" in str(asked.reason)
+    lacks = scored("leading-0.5", outcome="unsupported(no axial force)")
+    assert lacks.outcome == "unsupported(no axial force)" and lacks.measured == {} and lacks.reason == "no axial force"
 
 
-def test_three_results_with_the_very_same_numbers_are_no_resolutions(tmp_path):
-    J = exact_fields()["J"] + 1e-4 * np.sin(300.0 * TAU) * np.sqrt(TAU)
-    found = score(load_result(written(tmp_path, J=J)))
-    nearly = [replace(load_result(written(tmp_path, J=(1.0 + k * 1e-9) * J)), metadata={}) for k in range(3)]
-    assert {one.diagnosis[0].name for one in resolution_ignored([found, found])} == {"clean"}
-    for three in ([found] * 3, list(map(score, nearly))):
-        flagged = resolution_ignored(three)
-        assert {one.symptoms[0].name for one in flagged} == {"copies"} and not any(one.diagnosis for one in flagged)
-
-
-def test_resolutions_of_which_no_two_agree_are_not_clean(tmp_path):
+def test_three_results_with_the_very_same_numbers_are_no_resolutions_and_without_two_that_agree_not_clean():
     exact = exact_fields()
     J = exact["J"] + 1e-4 * np.sin(300.0 * TAU) * np.sqrt(TAU)
-    scores = [score(load_result(written(tmp_path, J=k * J, Jm=k * exact["Jm"]))) for k in (0.992, 1.004, 1.0165)]
-    assert {"spread"} <= {one.name for found in resolution_ignored(scores) for one in found.symptoms}
+    same, near, far = (
+        [scored("leading-0.5", tau=TAU, J=k * J, Jm=k * exact["Jm"]) for k in factors]
+        for factors in ((1.0, 1.0, 1.0), (1.0, 1.0 + 1e-9, 1.0 + 2e-9), (0.992, 1.004, 1.0165))
+    )
+    assert {one.diagnosis[0].name for one in resolution_ignored(same[:2])} == {"clean"}
+    for three in (same, near):
+        flagged = resolution_ignored(three)
+        assert {one.symptoms[0].name for one in flagged} == {"copies"} and not any(one.diagnosis for one in flagged)
+    assert "spread" in {one.name for found in resolution_ignored(far) for one in found.symptoms}
 
 
 @pytest.mark.parametrize(("pull", "adhesion"), [(0.03, 0.03), (0.5, 0.5), (1.0, 1.0), (3.0, 1.5)])
@@ -162,15 +154,11 @@ def test_a_window_that_grows_with_the_contact_is_not_said_to_gain_energy():
     assert [finding.name for finding in found.diagnosis] == ["clean"]
 
 
-@pytest.mark.parametrize(
-    ("name", "value"), [("damping", 0.001), ("rotation", 0.001), ("first_touch", 0.001), ("opposite_wall", 1.0)]
-)
-def test_a_history_of_another_impact_than_the_exact_solution_s_is_refused(name, value):
-    impact = Impact.whole_beam(0.5).replace(**{name: value})
-    method = method_type("hermite")(mesh=UniformMesh(element_length=0.1))
-    history = method.simulate(impact, end_time=1e-3, save=4)
+@pytest.mark.parametrize("name", ["damping", "rotation", "first_touch", "opposite_wall"])
+def test_a_history_of_another_impact_than_the_exact_solution_s_is_refused(name):
+    impact = Impact.whole_beam(0.5).replace(**{name: 0.3})
     with pytest.raises(ResultError, match=f"{name} is "):
-        result_from_history(history)
+        result_from_history(history_of(np.zeros(1), np.zeros(1), impact=impact))
 
 
 @pytest.mark.parametrize(
@@ -226,12 +214,6 @@ def test_the_largest_force_at_an_end_of_the_record_is_not_extrapolated(force):
     found = scored("elastic-wall-0.5-0", tau=np.linspace(0.0, 4.0, 401), J=np.append(0.0, np.cumsum(0.01 * force)))
     assert found.measured["peak_force"].value == pytest.approx(force.max())
     assert 0.0 < (found.measured["peak_time"].value or 0.0) < 4.0
-
-
-@pytest.mark.parametrize(("instants", "rows"), [(0, 2), (2, 0)])
-def test_gaps_without_instants_and_instants_without_gaps_are_refused(tmp_path, instants, rows):
-    snaps = {"x": np.arange(3.0), "snap_tau": 0.1 * np.ones(instants), "snap_gap": np.zeros((rows, 3))}
-    assert "snap_gap" in refusal(written(tmp_path, **snaps))
 
 
 def test_the_ends_of_the_fit_window_are_in_it():

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from report_fixtures import KEPT, impacts, lost, pipe, row, rows
+from report_fixtures import KEPT, METHODS, impacts, lost, pipe, row, rows
 
 from bent_beam_programs.report.impacts import FRAMES, SHOWN, acceleration_rows, energies, theory_of
 from bent_beam_programs.report.page import Content, render
@@ -26,7 +26,6 @@ from bent_beam_programs.report.work import stored_measurements
 from comparison.methods import methods_of
 from comparison.predicting import predict_case
 from comparison.texts import prediction_text
-from hermite_fe import HermiteFE
 
 LABELS = ("Hermite", "Self-similar", "Exudyn")
 VOID = {"meta", "link", "br", "img", "input", "line", "circle", "rect", "path"}
@@ -183,7 +182,7 @@ def test_shown_impact_without_acceleration_is_the_leading_order(label: str, off:
 
 def test_in_the_frame_of_an_accelerated_beam_the_wall_alone_does_work() -> None:
     impact = SHOWN[1].impact
-    history = HermiteFE().simulate(impact, end_time=0.02 * impact.time_scale, save=200)
+    history = METHODS[1].simulate(impact, end_time=0.02 * impact.time_scale, save=200)
     speed, impulse = impact.velocity + impact.acceleration * history.time, history.array("total_impulse")
     work = np.sum(0.5 * (speed[1:] + speed[:-1]) * np.diff(impulse))
     assert energies(history)["work_of_loads"][-1] == pytest.approx(work, rel=1e-3)
