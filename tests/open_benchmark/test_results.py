@@ -161,15 +161,13 @@ def test_a_history_of_another_impact_than_the_exact_solution_s_is_refused(name):
         result_from_history(history_of(np.zeros(1), np.zeros(1), impact=impact))
 
 
-@pytest.mark.parametrize(
-    ("name", "factor", "verdict"),
-    [("bar", 0.5, "off"), ("ball", -1.0, "off"), ("string", 1.07, "off"), ("stopped-beam", 1.0, "clean")],
-)
-def test_the_ladder_has_verdicts_too(name, factor, verdict):
+@pytest.mark.parametrize(("name", "factor"), [("bar", 0.5), ("ball", -1.0), ("string", 1.07), ("stopped-beam", 1.0)])
+def test_the_ladder_has_verdicts_too(name, factor):
     asked = problem(name)
     tau = np.linspace(0.0, asked.end_time, 600)
     found = scored(name, tau=tau, J=factor * reference(asked).impulse(tau))
-    assert [finding.name for finding in found.diagnosis] == [verdict] and ("off" in found.outcome) == (factor != 1.0)
+    assert [finding.name for finding in found.diagnosis] == ["clean" if factor == 1.0 else "off"]
+    assert ("off" in found.outcome) == (factor != 1.0)
 
 
 def test_the_judge_adds_up_nodal_histories_of_half_and_whole_beams_and_holds_them_against_momentum(tmp_path):
@@ -189,31 +187,23 @@ def test_the_judge_adds_up_nodal_histories_of_half_and_whole_beams_and_holds_the
     assert score(half).raw and abs(score(half).figure("momentum")) < 1e-6
 
 
-@pytest.mark.parametrize(
-    ("name", "place", "share"), [("elastic-stop-18000", 0.783, 1.0), ("elastic-wall-0.5-0", 0.0, 2.0)]
-)
-def test_the_largest_force_is_the_top_of_what_the_nodes_give_and_a_stop_stands_on_one_side_alone(name, place, share):
-    end = problem(name).end_time
-    tau = np.linspace(0.0, end, 300)
-    pushed = 100.0 * end / np.pi * (1.0 - np.cos(np.pi * tau / end))[:, None]
-    found = scored(name, tau=tau, node_x=[place], node_impulse=pushed)
-    assert found.measured["peak_force"].value == pytest.approx(share * 100.0, rel=1e-4)
-    assert found.measured["peak_time"].value == pytest.approx(0.5 * end, rel=1e-4)
-    assert found.outcome == "completed, off" and found.reference["peak_force"]["error"] > 0.0
+def test_the_largest_force_is_the_top_of_what_the_nodes_give_and_a_stop_stands_on_one_side_alone():
+    for name, place, share in (("elastic-stop-18000", 0.783, 1.0), ("elastic-wall-0.5-0", 0.0, 2.0)):
+        end = problem(name).end_time
+        tau = np.linspace(0.0, end, 300)
+        pushed = 100.0 * end / np.pi * (1.0 - np.cos(np.pi * tau / end))[:, None]
+        found = scored(name, tau=tau, node_x=[place], node_impulse=pushed)
+        assert found.measured["peak_force"].value == pytest.approx(share * 100.0, rel=1e-4)
+        assert found.measured["peak_time"].value == pytest.approx(0.5 * end, rel=1e-4)
+        assert found.outcome == "completed, off" and found.reference["peak_force"]["error"] > 0.0
 
 
-MIDDLES = np.linspace(0.005, 3.995, 400)
-
-
-@pytest.mark.parametrize(
-    "force",
-    [9.0 - MIDDLES - 0.05 * MIDDLES**2, 1.0 + MIDDLES - 0.01 * MIDDLES**2, np.append(9.0, np.zeros(399))],
-    ids=["falls", "grows", "jolt"],
-)
-def test_the_largest_force_at_an_end_of_the_record_is_not_extrapolated(force):
-    found = scored("elastic-wall-0.5-0", tau=np.linspace(0.0, 4.0, 401), J=np.append(0.0, np.cumsum(0.01 * force)))
-    assert found.measured["peak_force"].value == pytest.approx(force.max())
-    assert 0.0 < (found.measured["peak_time"].value or 0.0) < 4.0
+def test_the_largest_force_at_an_end_of_the_record_is_not_extrapolated():
+    t = np.linspace(0.005, 3.995, 400)
+    for force in (9.0 - t - 0.05 * t**2, 1.0 + t - 0.01 * t**2, np.append(9.0, np.zeros(399))):  # falls, grows, jolts
+        found = scored("elastic-wall-0.5-0", tau=np.linspace(0.0, 4.0, 401), J=np.append(0.0, np.cumsum(0.01 * force)))
+        assert found.measured["peak_force"].value == pytest.approx(force.max())
+        assert 0.0 < (found.measured["peak_time"].value or 0.0) < 4.0
 
 
 def test_the_ends_of_the_fit_window_are_in_it():

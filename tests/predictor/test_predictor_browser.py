@@ -32,12 +32,6 @@ def type_into(browser: Any, name: str, text: str) -> None:
     field.send_keys(text)
 
 
-def choose(browser: Any, name: str, value: str) -> None:
-    from selenium.webdriver.support.ui import Select
-
-    Select(browser.find_element("id", f"in-{name}")).select_by_value(value)
-
-
 def shown(browser: Any, name: str) -> str:
     return str(ask(browser, f"document.getElementById('{name}').textContent"))
 
@@ -138,13 +132,13 @@ def test_keyboard_alone_reaches_and_moves_everything(browser: Any) -> None:
 
 def test_a_link_carries_the_case_and_units_are_a_matter_of_display(chromium: Any, address: str) -> None:
     from selenium.webdriver.common.keys import Keys
+    from selenium.webdriver.support.ui import Select
 
     browser = opened(chromium, address)
     before = shown(browser, "case")
-    choose(browser, "units", "oilfield")
-    assert float(ask(browser, "document.getElementById('in-outer_diameter').value")) == pytest.approx(
-        0.05 / 0.0254, rel=1e-5
-    )
+    Select(browser.find_element("id", "in-units")).select_by_value("oilfield")
+    inches = float(ask(browser, "document.getElementById('in-outer_diameter').value"))
+    assert inches == pytest.approx(0.05 / 0.0254, rel=1e-5)
     assert shown(browser, "case") == before
     type_into(browser, "velocity", "5.5")
     browser.find_element("id", "in-damping_ratio").send_keys(Keys.END, Keys.BACKSPACE)  # its 1, so that it is empty
