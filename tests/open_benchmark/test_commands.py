@@ -31,8 +31,7 @@ def test_score_prints_one_document_and_a_list_of_several(tmp_path):
 
 
 def test_a_result_that_cannot_be_read_is_exit_code_2_and_no_score(tmp_path):
-    bad = written(tmp_path, 2.0, "bad.npz", J=np.full(400, np.nan))
-    code, out, err = command("score", bad, "--json")
+    code, out, err = command("score", written(tmp_path, J=np.full(400, np.nan)), "--json")
     assert code == 2 and err.count("\n") == 1 and "J[0] is nan" in err
     document = json.loads(out)
     assert document["outcome"] == "invalid" and document["r0"] is None and document["diagnosis"] == []
