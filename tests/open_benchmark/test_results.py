@@ -32,11 +32,10 @@ def refusal(file):
     return line
 
 
-@pytest.mark.parametrize("kappa", [0.05, 0.37, 0.8])
-def test_the_exact_impulse_and_moment_give_lambda0_and_r0_to_rounding(tmp_path, kappa):
-    found = score(load_result(written(tmp_path, kappa)))
-    assert found.outcome == "completed"
-    assert found.error("lambda0") == pytest.approx(0.0, abs=1e-9) and found.error("r0") == pytest.approx(0.0, abs=1e-9)
+def test_the_exact_impulse_and_moment_give_lambda0_and_r0_to_rounding():
+    for found in (score(result_from_fields(exact_fields(kappa))) for kappa in (0.05, 0.37, 0.8)):
+        assert found.outcome == "completed"
+        assert (found.error("lambda0"), found.error("r0")) == pytest.approx((0.0, 0.0), abs=1e-9)
 
 
 def test_a_result_that_is_written_as_csv_scores_the_same_bits(tmp_path):
@@ -114,7 +113,7 @@ def test_three_results_with_the_very_same_numbers_are_no_resolutions_and_without
     assert "spread" in {one.name for found in resolution_ignored(far) for one in found.symptoms}
 
 
-@pytest.mark.parametrize(("pull", "adhesion"), [(0.03, 0.03), (0.5, 0.5), (1.0, 1.0), (3.0, 1.5)])
+@pytest.mark.parametrize(("pull", "adhesion"), [(0.03, 0.03), (1.0, 1.0), (3.0, 1.5)])
 def test_a_wall_that_pulls_is_adhesive_even_where_it_pulls_more_than_it_pushes(pull, adhesion):
     """It pushes by 1 and then pulls: over the largest impulse, 1, or 2 where it has pulled by 3."""
     share = TAU / TAU[-1]
@@ -123,12 +122,12 @@ def test_a_wall_that_pulls_is_adhesive_even_where_it_pulls_more_than_it_pushes(p
     assert "adhesive" in found.outcome and found.figure("pull") == pytest.approx(adhesion, rel=0.02)
 
 
-def test_gaps_in_the_zone_and_penetration_are_measured_over_the_way_travelled(tmp_path):
+def test_gaps_in_the_zone_and_penetration_are_measured_over_the_way_travelled():
     x = np.linspace(0.0, 2.0, 401)
     front = contact_parameters(0.5).lambda0 * np.sqrt(0.05)
     gap = np.where(x < front, 0.002 * 0.05, (x - front) ** 2)
     gap[0] = -0.02 * 0.05
-    found = score(load_result(written(tmp_path, x=x, snap_tau=np.array([0.05]), snap_gap=gap[None, :])))
+    found = score(result_from_fields(exact_fields() | {"x": x, "snap_tau": [0.05], "snap_gap": gap[None, :]}))
     assert found.figure("lift") == pytest.approx(0.002) and found.figure("penetration") == pytest.approx(0.02)
     assert found.outcome == "completed, leaky"
 
@@ -142,7 +141,7 @@ def test_first_order_numbers_need_the_base_they_belong_to():
     moment = change * (exact.r0 * exact.lambda1 + exact.r1 * exact.lambda0) / 2.0 + load * exact.lambda0**2 / 4.0
     loaded = Result("completed", "", asked, {}, TAU, impulse, fields["Jm"] + moment * TAU**2)
     found = score(loaded, base)
-    assert found.error("lambda1") == pytest.approx(0.0, abs=1e-4) and found.error("r1") == pytest.approx(0.0, abs=1e-4)
+    assert (found.error("lambda1"), found.error("r1")) == pytest.approx((0.0, 0.0), abs=1e-4)
     assert score(loaded).measured == {}
     with pytest.raises(ResultError, match="is not the base"):
         score(loaded, loaded)
@@ -170,7 +169,7 @@ def test_the_ladder_has_verdicts_too(name, factor):
     assert ("off" in found.outcome) == (factor != 1.0)
 
 
-def test_the_judge_adds_up_nodal_histories_of_half_and_whole_beams_and_holds_them_against_momentum(tmp_path):
+def test_the_judge_adds_up_nodal_histories_of_half_and_whole_beams_and_holds_them_against_momentum():
     x, tau = np.linspace(0.0, 2.0, 41), TAU
     share = np.exp(-20.0 * x)
     impulse = np.sqrt(tau)[:, None] * share / share.sum()
@@ -178,9 +177,9 @@ def test_the_judge_adds_up_nodal_histories_of_half_and_whole_beams_and_holds_the
     # a beam that has lost the momentum 2√τ at one rate all along
     gap, lost = np.zeros((2, 41)), 2.0 * np.sqrt(when)[:, None] / 4.0 * np.ones((2, 41))
     snaps = {"x": x, "snap_tau": when, "snap_gap": gap, "snap_v": 1.0 - lost}
-    half = load_result(written(tmp_path, J=None, Jm=None, node_x=x, node_impulse=impulse, **snaps))
+    half = result_from_fields(exact_fields() | {"node_x": x, "node_impulse": impulse} | snaps)
     both = np.c_[impulse[:, :0:-1], 2.0 * impulse[:, :1], impulse[:, 1:]]
-    whole = load_result(written(tmp_path, J=None, Jm=None, node_x=np.r_[-x[:0:-1], x], node_impulse=both))
+    whole = result_from_fields(exact_fields() | {"node_x": np.r_[-x[:0:-1], x], "node_impulse": both})
     for found in (half, whole):
         assert found.J == pytest.approx(2.0 * np.sqrt(tau))
         assert found.Jm == pytest.approx(np.sqrt(tau) * (x @ share) / share.sum())
