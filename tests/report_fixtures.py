@@ -65,7 +65,7 @@ KEPT = RunStore(FOLDER / "store")
 def pipe() -> dict[str, Any] | None:
     """As the page shows it, on coarser elements."""
     coarse = FOLDER / "pipe.toml"
-    coarse.write_text(PIPE.read_text() + "\n[hermite]\nrefine = 0.25\n")
+    coarse.write_text(PIPE.read_text() + "\n[hermite]\nrefine = 0.05\n")
     return pipe_prediction(coarse, store=KEPT)
 
 

@@ -15,10 +15,9 @@ from scipy.optimize import nnls
 
 def solve(
     kappa=0.5, *, size=0.02, half=3.0, steps=400, theta=1.0, stiffness=1.0, mass=1.0, speed=1.0, shape=1.0, shift=0.0,
-    gravity=0.0, every=1, reach=9.0, sticky=False, bounce=0.0, spring=None, dashpot=0.0, rounds=60, grid=0.2,
-    clamped=False, middle=2.0, end=0.1,
+    gravity=0.0, every=1, reach=9.0, bounce=0.0, spring=None, dashpot=0.0, grid=0.2, clamped=False, middle=2.0,
 ):  # fmt: skip
-    n, h = round(half / size), end / steps
+    n, h = round(half / size), 0.1 / steps
     x = size * np.arange(n + 1)
     bend = np.diff(np.eye(n + 1), 2, axis=0)
     bend = np.vstack([2.0 * (np.eye(n + 1)[1] - np.eye(n + 1)[0]), bend]) / size**2  # symmetric about the first node
@@ -28,7 +27,7 @@ def solve(
     inverse = cho_solve(cho_factor(np.diag(m) + h * theta * C + (h * theta) ** 2 * K), np.eye(n + 1))
     gap = shape * kappa * x**2 / 2.0 + shift
     may = (np.arange(n + 1) % every == 0) & (x <= reach)
-    u, v, held = np.zeros(n + 1), np.full(n + 1, speed), np.zeros(n + 1, bool)
+    u, v = np.zeros(n + 1), np.full(n + 1, speed)
     tau, pushed, energy = h * np.arange(steps + 1), np.zeros((steps + 1, n + 1)), np.zeros((2, steps + 1))
     energy[0, 0] = v @ (m * v)  # of both halves
     when, snaps, speeds = np.round(np.linspace(0.1, 1.0, 10) * steps).astype(int), [], []
@@ -40,7 +39,7 @@ def solve(
             most = np.where(u >= gap - 1e-12, -bounce * np.maximum(v, 0.0), most)
         if spring is not None:
             on = (free > most) & may
-            for _ in range(rounds):
+            for _ in range(60):
                 c = np.flatnonzero(on)
                 rate = h * spring * (h * theta + dashpot)
                 force = h * spring * (u + h * (1.0 - theta) * v - gap)[c] + rate * free[c]
@@ -51,14 +50,11 @@ def solve(
                     break
                 on = new
         else:
-            s = np.flatnonzero(held)
-            p[s] = np.linalg.solve(inverse[np.ix_(s, s)], (free - most)[s]) if s.size else 0.0
-            c = np.flatnonzero(may & ~held & (free > most - 0.02 / h))
+            c = np.flatnonzero(may & (free > most - 0.02 / h))
             if c.size:
                 lower = cholesky(inverse[np.ix_(c, c)], lower=True)
-                wanted = solve_triangular(lower, (free - inverse @ p - most)[c], lower=True)
+                wanted = solve_triangular(lower, (free - most)[c], lower=True)
                 p[c] = nnls(lower.T, wanted, maxiter=50 * c.size)[0]
-            held |= (p > 0.0) & sticky
         new = free - inverse @ p
         u, v = u + h * ((1.0 - theta) * v + theta * new), new
         pushed[k] = pushed[k - 1] + p

@@ -31,13 +31,13 @@ def test_score_prints_one_document_and_a_list_of_several(tmp_path):
 
 
 def test_a_result_that_cannot_be_read_is_exit_code_2_and_no_score(tmp_path):
-    bad = written(tmp_path, 2.0, "bad.npz", J=np.full(400, np.nan))
-    code, out, err = command("score", bad, "--json")
+    code, out, err = command("score", written(tmp_path, J=np.full(400, np.nan)), "--json")
     assert code == 2 and err.count("\n") == 1 and "J[0] is nan" in err
     document = json.loads(out)
     assert document["outcome"] == "invalid" and document["r0"] is None and document["diagnosis"] == []
 
 
+@pytest.mark.usefixtures("alone")
 def test_benchmark_writes_a_page_for_an_adapter_of_ones_own(tmp_path):
     exact, file, out = written(tmp_path, 2.0, "exact.npz"), tmp_path / "mine.py", tmp_path / "out"
     file.write_text(f"import shutil, sys; shutil.copy({str(exact)!r}, sys.argv[2])")

@@ -1,14 +1,12 @@
 """What a result file may hold, and what a score says of it."""
 
 from contextlib import nullcontext
-from dataclasses import replace
 
 import numpy as np
 import pytest
 from histories import history_of
 
 from bent_beam import Impact
-from bent_beam.meshes import UniformMesh
 from bent_beam.method import method_type
 from bent_beam_programs.open_benchmark.histories import result_from_history
 from bent_beam_programs.open_benchmark.problem import problem
@@ -34,11 +32,10 @@ def refusal(file):
     return line
 
 
-@pytest.mark.parametrize("kappa", [0.05, 0.37, 0.8])
-def test_the_exact_impulse_and_moment_give_lambda0_and_r0_to_rounding(tmp_path, kappa):
-    found = score(load_result(written(tmp_path, kappa)))
-    assert found.outcome == "completed"
-    assert found.error("lambda0") == pytest.approx(0.0, abs=1e-9) and found.error("r0") == pytest.approx(0.0, abs=1e-9)
+def test_the_exact_impulse_and_moment_give_lambda0_and_r0_to_rounding():
+    for found in (score(result_from_fields(exact_fields(kappa))) for kappa in (0.05, 0.37, 0.8)):
+        assert found.outcome == "completed"
+        assert (found.error("lambda0"), found.error("r0")) == pytest.approx((0.0, 0.0), abs=1e-9)
 
 
 def test_a_result_that_is_written_as_csv_scores_the_same_bits(tmp_path):
@@ -70,6 +67,8 @@ def test_a_result_that_is_written_as_csv_scores_the_same_bits(tmp_path):
         ({"J_minus": -np.ones(400)}, "J_minus is the size of the tensile impulse"),
         ({"x": np.zeros(3)}, "snap_tau is missing next to x"),
         ({"x": np.zeros(3), "snap_tau": np.zeros(2), "snap_gap": np.zeros((3, 2))}, "must have shape (2, points)"),
+        ({"x": np.zeros(3), "snap_tau": np.zeros(0), "snap_gap": np.zeros((2, 3))}, "must have shape (0, points)"),
+        ({"x": np.zeros(3), "snap_tau": np.zeros(2), "snap_gap": np.zeros((0, 3))}, "snap_gap is empty"),
     ],
 )
 def test_a_malformed_result_gets_one_line_naming_the_field(tmp_path, changes, words):
@@ -93,36 +92,28 @@ def test_a_malformed_table_gets_one_line_naming_the_file_once_and_the_field(tmp_
     assert words in refusal(tmp_path / "run.csv")
 
 
-@pytest.mark.parametrize(
-    ("changes", "outcome", "reason"),
-    [
-        ({"J": np.zeros(400)}, "invalid", "J and Jm"),  # a wall that never pushes
-        ({"outcome": "unsupported(no axial force)", "J": None}, "unsupported(no axial force)", "no axial force"),
-    ],
-)
-def test_a_result_without_numbers_is_kept_with_its_reason_and_not_scored(tmp_path, changes, outcome, reason):
-    found = score(load_result(written(tmp_path, **changes)))
-    assert found.outcome == outcome and found.measured == {} and reason in str(found.reason)
+def test_a_result_without_numbers_is_kept_with_its_reason_and_not_scored():
+    asked = scored("leading-0.5", tau=TAU, J=0.0 * TAU, Jm=0.0 * TAU)  # a wall that never pushes
+    assert asked.outcome == "invalid" and asked.measured == {} and "J and Jm" in str(asked.reason)
+    lacks = scored("leading-0.5", outcome="unsupported(no axial force)")
+    assert lacks.outcome == "unsupported(no axial force)" and lacks.measured == {} and lacks.reason == "no axial force"
 
 
-def test_three_results_with_the_very_same_numbers_are_no_resolutions(tmp_path):
-    J = exact_fields()["J"] + 1e-4 * np.sin(300.0 * TAU) * np.sqrt(TAU)
-    found = score(load_result(written(tmp_path, J=J)))
-    nearly = [replace(load_result(written(tmp_path, J=(1.0 + k * 1e-9) * J)), metadata={}) for k in range(3)]
-    assert {one.diagnosis[0].name for one in resolution_ignored([found, found])} == {"clean"}
-    for three in ([found] * 3, list(map(score, nearly))):
-        flagged = resolution_ignored(three)
-        assert {one.symptoms[0].name for one in flagged} == {"copies"} and not any(one.diagnosis for one in flagged)
-
-
-def test_resolutions_of_which_no_two_agree_are_not_clean(tmp_path):
+def test_three_results_with_the_very_same_numbers_are_no_resolutions_and_without_two_that_agree_not_clean():
     exact = exact_fields()
     J = exact["J"] + 1e-4 * np.sin(300.0 * TAU) * np.sqrt(TAU)
-    scores = [score(load_result(written(tmp_path, J=k * J, Jm=k * exact["Jm"]))) for k in (0.992, 1.004, 1.0165)]
-    assert {"spread"} <= {one.name for found in resolution_ignored(scores) for one in found.symptoms}
+    same, near, far = (
+        [scored("leading-0.5", tau=TAU, J=k * J, Jm=k * exact["Jm"]) for k in factors]
+        for factors in ((1.0, 1.0, 1.0), (1.0, 1.0 + 1e-9, 1.0 + 2e-9), (0.992, 1.004, 1.0165))
+    )
+    assert {one.diagnosis[0].name for one in resolution_ignored(same[:2])} == {"clean"}
+    for three in (same, near):
+        flagged = resolution_ignored(three)
+        assert {one.symptoms[0].name for one in flagged} == {"copies"} and not any(one.diagnosis for one in flagged)
+    assert "spread" in {one.name for found in resolution_ignored(far) for one in found.symptoms}
 
 
-@pytest.mark.parametrize(("pull", "adhesion"), [(0.03, 0.03), (0.5, 0.5), (1.0, 1.0), (3.0, 1.5)])
+@pytest.mark.parametrize(("pull", "adhesion"), [(0.03, 0.03), (1.0, 1.0), (3.0, 1.5)])
 def test_a_wall_that_pulls_is_adhesive_even_where_it_pulls_more_than_it_pushes(pull, adhesion):
     """It pushes by 1 and then pulls: over the largest impulse, 1, or 2 where it has pulled by 3."""
     share = TAU / TAU[-1]
@@ -131,12 +122,12 @@ def test_a_wall_that_pulls_is_adhesive_even_where_it_pulls_more_than_it_pushes(p
     assert "adhesive" in found.outcome and found.figure("pull") == pytest.approx(adhesion, rel=0.02)
 
 
-def test_gaps_in_the_zone_and_penetration_are_measured_over_the_way_travelled(tmp_path):
+def test_gaps_in_the_zone_and_penetration_are_measured_over_the_way_travelled():
     x = np.linspace(0.0, 2.0, 401)
     front = contact_parameters(0.5).lambda0 * np.sqrt(0.05)
     gap = np.where(x < front, 0.002 * 0.05, (x - front) ** 2)
     gap[0] = -0.02 * 0.05
-    found = score(load_result(written(tmp_path, x=x, snap_tau=np.array([0.05]), snap_gap=gap[None, :])))
+    found = score(result_from_fields(exact_fields() | {"x": x, "snap_tau": [0.05], "snap_gap": gap[None, :]}))
     assert found.figure("lift") == pytest.approx(0.002) and found.figure("penetration") == pytest.approx(0.02)
     assert found.outcome == "completed, leaky"
 
@@ -150,7 +141,7 @@ def test_first_order_numbers_need_the_base_they_belong_to():
     moment = change * (exact.r0 * exact.lambda1 + exact.r1 * exact.lambda0) / 2.0 + load * exact.lambda0**2 / 4.0
     loaded = Result("completed", "", asked, {}, TAU, impulse, fields["Jm"] + moment * TAU**2)
     found = score(loaded, base)
-    assert found.error("lambda1") == pytest.approx(0.0, abs=1e-4) and found.error("r1") == pytest.approx(0.0, abs=1e-4)
+    assert (found.error("lambda1"), found.error("r1")) == pytest.approx((0.0, 0.0), abs=1e-4)
     assert score(loaded).measured == {}
     with pytest.raises(ResultError, match="is not the base"):
         score(loaded, loaded)
@@ -162,29 +153,23 @@ def test_a_window_that_grows_with_the_contact_is_not_said_to_gain_energy():
     assert [finding.name for finding in found.diagnosis] == ["clean"]
 
 
-@pytest.mark.parametrize(
-    ("name", "value"), [("damping", 0.001), ("rotation", 0.001), ("first_touch", 0.001), ("opposite_wall", 1.0)]
-)
-def test_a_history_of_another_impact_than_the_exact_solution_s_is_refused(name, value):
-    impact = Impact.whole_beam(0.5).replace(**{name: value})
-    method = method_type("hermite")(mesh=UniformMesh(element_length=0.1))
-    history = method.simulate(impact, end_time=1e-3, save=4)
+@pytest.mark.parametrize("name", ["damping", "rotation", "first_touch", "opposite_wall"])
+def test_a_history_of_another_impact_than_the_exact_solution_s_is_refused(name):
+    impact = Impact.whole_beam(0.5).replace(**{name: 0.3})
     with pytest.raises(ResultError, match=f"{name} is "):
-        result_from_history(history)
+        result_from_history(history_of(np.zeros(1), np.zeros(1), impact=impact))
 
 
-@pytest.mark.parametrize(
-    ("name", "factor", "verdict"),
-    [("bar", 0.5, "off"), ("ball", -1.0, "off"), ("string", 1.07, "off"), ("stopped-beam", 1.0, "clean")],
-)
-def test_the_ladder_has_verdicts_too(name, factor, verdict):
+@pytest.mark.parametrize(("name", "factor"), [("bar", 0.5), ("ball", -1.0), ("string", 1.07), ("stopped-beam", 1.0)])
+def test_the_ladder_has_verdicts_too(name, factor):
     asked = problem(name)
     tau = np.linspace(0.0, asked.end_time, 600)
     found = scored(name, tau=tau, J=factor * reference(asked).impulse(tau))
-    assert [finding.name for finding in found.diagnosis] == [verdict] and ("off" in found.outcome) == (factor != 1.0)
+    assert [finding.name for finding in found.diagnosis] == ["clean" if factor == 1.0 else "off"]
+    assert ("off" in found.outcome) == (factor != 1.0)
 
 
-def test_the_judge_adds_up_nodal_histories_of_half_and_whole_beams_and_holds_them_against_momentum(tmp_path):
+def test_the_judge_adds_up_nodal_histories_of_half_and_whole_beams_and_holds_them_against_momentum():
     x, tau = np.linspace(0.0, 2.0, 41), TAU
     share = np.exp(-20.0 * x)
     impulse = np.sqrt(tau)[:, None] * share / share.sum()
@@ -192,46 +177,32 @@ def test_the_judge_adds_up_nodal_histories_of_half_and_whole_beams_and_holds_the
     # a beam that has lost the momentum 2√τ at one rate all along
     gap, lost = np.zeros((2, 41)), 2.0 * np.sqrt(when)[:, None] / 4.0 * np.ones((2, 41))
     snaps = {"x": x, "snap_tau": when, "snap_gap": gap, "snap_v": 1.0 - lost}
-    half = load_result(written(tmp_path, J=None, Jm=None, node_x=x, node_impulse=impulse, **snaps))
+    half = result_from_fields(exact_fields() | {"node_x": x, "node_impulse": impulse} | snaps)
     both = np.c_[impulse[:, :0:-1], 2.0 * impulse[:, :1], impulse[:, 1:]]
-    whole = load_result(written(tmp_path, J=None, Jm=None, node_x=np.r_[-x[:0:-1], x], node_impulse=both))
+    whole = result_from_fields(exact_fields() | {"node_x": np.r_[-x[:0:-1], x], "node_impulse": both})
     for found in (half, whole):
         assert found.J == pytest.approx(2.0 * np.sqrt(tau))
         assert found.Jm == pytest.approx(np.sqrt(tau) * (x @ share) / share.sum())
     assert score(half).raw and abs(score(half).figure("momentum")) < 1e-6
 
 
-@pytest.mark.parametrize(
-    ("name", "place", "share"), [("elastic-stop-18000", 0.783, 1.0), ("elastic-wall-0.5-0", 0.0, 2.0)]
-)
-def test_the_largest_force_is_the_top_of_what_the_nodes_give_and_a_stop_stands_on_one_side_alone(name, place, share):
-    end = problem(name).end_time
-    tau = np.linspace(0.0, end, 300)
-    pushed = 100.0 * end / np.pi * (1.0 - np.cos(np.pi * tau / end))[:, None]
-    found = scored(name, tau=tau, node_x=[place], node_impulse=pushed)
-    assert found.measured["peak_force"].value == pytest.approx(share * 100.0, rel=1e-4)
-    assert found.measured["peak_time"].value == pytest.approx(0.5 * end, rel=1e-4)
-    assert found.outcome == "completed, off" and found.reference["peak_force"]["error"] > 0.0
+def test_the_largest_force_is_the_top_of_what_the_nodes_give_and_a_stop_stands_on_one_side_alone():
+    for name, place, share in (("elastic-stop-18000", 0.783, 1.0), ("elastic-wall-0.5-0", 0.0, 2.0)):
+        end = problem(name).end_time
+        tau = np.linspace(0.0, end, 300)
+        pushed = 100.0 * end / np.pi * (1.0 - np.cos(np.pi * tau / end))[:, None]
+        found = scored(name, tau=tau, node_x=[place], node_impulse=pushed)
+        assert found.measured["peak_force"].value == pytest.approx(share * 100.0, rel=1e-4)
+        assert found.measured["peak_time"].value == pytest.approx(0.5 * end, rel=1e-4)
+        assert found.outcome == "completed, off" and found.reference["peak_force"]["error"] > 0.0
 
 
-MIDDLES = np.linspace(0.005, 3.995, 400)
-
-
-@pytest.mark.parametrize(
-    "force",
-    [9.0 - MIDDLES - 0.05 * MIDDLES**2, 1.0 + MIDDLES - 0.01 * MIDDLES**2, np.append(9.0, np.zeros(399))],
-    ids=["falls", "grows", "jolt"],
-)
-def test_the_largest_force_at_an_end_of_the_record_is_not_extrapolated(force):
-    found = scored("elastic-wall-0.5-0", tau=np.linspace(0.0, 4.0, 401), J=np.append(0.0, np.cumsum(0.01 * force)))
-    assert found.measured["peak_force"].value == pytest.approx(force.max())
-    assert 0.0 < (found.measured["peak_time"].value or 0.0) < 4.0
-
-
-@pytest.mark.parametrize(("instants", "rows"), [(0, 2), (2, 0)])
-def test_gaps_without_instants_and_instants_without_gaps_are_refused(tmp_path, instants, rows):
-    snaps = {"x": np.arange(3.0), "snap_tau": 0.1 * np.ones(instants), "snap_gap": np.zeros((rows, 3))}
-    assert "snap_gap" in refusal(written(tmp_path, **snaps))
+def test_the_largest_force_at_an_end_of_the_record_is_not_extrapolated():
+    t = np.linspace(0.005, 3.995, 400)
+    for force in (9.0 - t - 0.05 * t**2, 1.0 + t - 0.01 * t**2, np.append(9.0, np.zeros(399))):  # falls, grows, jolts
+        found = scored("elastic-wall-0.5-0", tau=np.linspace(0.0, 4.0, 401), J=np.append(0.0, np.cumsum(0.01 * force)))
+        assert found.measured["peak_force"].value == pytest.approx(force.max())
+        assert 0.0 < (found.measured["peak_time"].value or 0.0) < 4.0
 
 
 def test_the_ends_of_the_fit_window_are_in_it():

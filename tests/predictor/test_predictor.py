@@ -76,7 +76,7 @@ def in_si(impact: Impact, name: str) -> float:
 
 @needs_node
 def test_page_is_the_theory_on_random_beams() -> None:
-    impacts, shares, area, modulus = random_impacts(70), [0.003, 0.03, 0.3], 2.0, 0.5
+    impacts, shares, area, modulus = random_impacts(40), [0.003, 0.03, 0.3], 2.0, 0.5
     section = {"area": area, "modulus": modulus, "yieldStress": None}
     beams = [{here: in_si(i, there) for here, there in NAMES.items()} | section for i in impacts]
     found = evaluated(
@@ -112,7 +112,7 @@ def test_page_is_the_theory_on_random_beams() -> None:
                 assert value is None or at[name] == pytest.approx(value, rel=1e-6, abs=1e-6 * unit), name
                 compared += value is not None
     assert {"shear", "wall", "damping", "waves back from the ends", "slope", "first-order correction"} <= causes
-    assert compared > 450 and unknown > 3
+    assert compared > 260 and unknown > 3
 
 
 def random_inputs(count: int, seed: int) -> list[dict[str, Any]]:
@@ -186,57 +186,43 @@ def test_shipped_cases_are_read_and_what_the_page_lacks_is_refused_by_name() -> 
 
 BAR = '[section]\nkind = "round_bar"\ndiameter = 0.01\nyoungs_modulus = 7e10\ndensity = 2700.0\n'
 BAR += "[beam]\nlength = 1.0\nsagitta = 0.01\n[impact]\nvelocity = 1.0\n"
-GENERAL = """[section]
-kind = "general"
-area_of_section = 1e-4
-second_moment_of_area = 1e-9
-section_height = 0.01
-youngs_modulus = 7e10
-density = 2700.0
-[beam]
-model = "timoshenko"
-"""
+GENERAL = 'kind = "general"\narea_of_section = 1e-4\nsecond_moment_of_area = 1e-9\nsection_height = 0.01'
+REFUSED = [  # instead of a line of the bar, another: what the page says
+    ("density = 2700.0", "", "section.density is missing"),
+    ("diameter = 0.01", "", "section.diameter is missing"),
+    ('kind = "round_bar"\ndiameter = 0.01', GENERAL, "needs a section that knows its shear"),
+    ("diameter = 0.01", "diameter = 0.01\nwidth = 0.1", "section.width is none of a round_bar"),
+    ("sagitta = 0.01", "", "give one of beam.sagitta, beam.curvature, beam.dogleg"),
+    ("sagitta = 0.01", "sagitta = 0.01\ncurvature = 0.1", "give one of beam.sagitta"),
+    ("sagitta = 0.01", "curvature = 0.1\nsagitta_length = 0.5", "sagitta_length has no effect"),
+    ("velocity = 1.0", "", "give one of impact.velocity, impact.drop_height"),
+    ("velocity = 1.0", "velocity = 1.0\ngravity = 9.81\nacceleration = 1.0", "say the same"),
+    ("velocity = 1.0", "velocity = 1.0\ngravity_angle = 30.0", "gravity_angle has no effect"),
+    ("velocity = 1.0", "velocity = 1.0\n[wall]\ndamping_ratio = 0.1", "wall.damping_ratio has no effect"),
+]
 
 
 @needs_node
-@pytest.mark.parametrize(
-    ("line", "other", "said"),
-    [
-        ("density = 2700.0", "", "section.density is missing"),
-        ("diameter = 0.01", "", "section.diameter is missing"),
-        (BAR[: BAR.index("length")], GENERAL, "needs a section that knows its shear"),
-        ("diameter = 0.01", "diameter = 0.01\nwidth = 0.1", "section.width is none of a round_bar"),
-        ("sagitta = 0.01", "", "give one of beam.sagitta, beam.curvature, beam.dogleg"),
-        ("sagitta = 0.01", "sagitta = 0.01\ncurvature = 0.1", "give one of beam.sagitta"),
-        ("sagitta = 0.01", "curvature = 0.1\nsagitta_length = 0.5", "sagitta_length has no effect"),
-        ("velocity = 1.0", "", "give one of impact.velocity, impact.drop_height"),
-        ("velocity = 1.0", "velocity = 1.0\ngravity = 9.81\nacceleration = 1.0", "say the same"),
-        ("velocity = 1.0", "velocity = 1.0\ngravity_angle = 30.0", "gravity_angle has no effect"),
-        ("velocity = 1.0", "velocity = 1.0\n[wall]\ndamping_ratio = 0.1", "wall.damping_ratio has no effect"),
-    ],
-)
-def test_the_page_makes_nothing_up_of_a_case_that_bentbeam_refuses(line: str, other: str, said: str) -> None:
-    text = BAR.replace(line, other)
-    with pytest.raises(InputError):
-        case_from_tables(tomllib.loads(text))
+def test_the_page_makes_nothing_up_of_a_case_that_bentbeam_refuses() -> None:
+    sheared = BAR.replace("length", 'model = "timoshenko"\nlength')  # a general section has no shear
+    texts = [(sheared if other == GENERAL else BAR).replace(line, other) for line, other, _ in REFUSED]
     read = "given.map((text) => { try { return Case.read(text); } catch (error) { return error.message; } })"
-    assert said in evaluated(read, [text])[0]
+    for text, (_, _, said), found in zip(texts, REFUSED, evaluated(read, texts), strict=True):
+        with pytest.raises(InputError):
+            case_from_tables(tomllib.loads(text))
+        assert said in found
 
 
 @needs_node
-def test_a_drop_at_an_angle_is_under_standard_gravity_on_the_page_too() -> None:
-    text = BAR.replace("velocity = 1.0", "drop_height = 0.05\ngravity_angle = 30.0")
-    expected = case_from_tables(tomllib.loads(text)).impact.velocity
-    assert evaluated("given.map((text) => Beam.impact(Case.read(text)).velocity)", [text])[0] == pytest.approx(expected)
-
-
-@needs_node
-def test_gravity_that_draws_away_from_the_wall_is_a_load_of_the_page() -> None:
-    text = BAR.replace("velocity = 1.0", "velocity = 1.0\ngravity = 9.81\ngravity_angle = 100.0")
-    expected = case_from_tables(tomllib.loads(text)).impact.net_load
+def test_gravity_at_an_angle_gives_the_velocity_of_a_drop_and_the_load_of_a_case() -> None:
+    """A drop is under standard gravity where none is stated; at 100° it draws away from the wall."""
+    angles = ("drop_height = 0.05\ngravity_angle = 30.0", "velocity = 1.0\ngravity = 9.81\ngravity_angle = 100.0")
+    texts = [BAR.replace("velocity = 1.0", angle) for angle in angles]
     read = """given.map((text) => { const i = Case.read(text), b = Beam.impact(i);
-        return [Beam.complaints(i).length, b.acceleration * b.mass * b.length]; })"""
-    assert evaluated(read, [text])[0] == [0, pytest.approx(expected)]
+        return [Beam.complaints(i).length, b.velocity, b.acceleration * b.mass * b.length]; })"""
+    for text, found in zip(texts, evaluated(read, texts), strict=True):
+        impact = case_from_tables(tomllib.loads(text)).impact
+        assert found == [0, pytest.approx(impact.velocity), pytest.approx(impact.net_load)]
 
 
 def page_and_bounce(inputs: list[dict[str, Any]], share: float = 1.0) -> tuple[int, list[str]]:

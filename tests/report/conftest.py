@@ -3,11 +3,13 @@
 from types import SimpleNamespace
 
 import pytest
+from matplotlib.figure import Figure
 from report_fixtures import impacts, lost, pipe, rows, studies
 
 from bent_beam_programs.report import page
 from bent_beam_programs.report.rows import PATHS, report_questions
 from bent_beam_programs.report.studies import stored_studies
+from comparison.figures import style
 from comparison.methods import methods_of
 from comparison.store import RunStore
 
@@ -29,6 +31,8 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> SimpleNamespace:
         return every
 
     with pytest.MonkeyPatch.context() as patch:
+        patch.setitem(style.RC, "figure.constrained_layout.use", False)  # layouts take longer than the page
+        patch.setattr(Figure, "draw_without_rendering", lambda figure: None)
         patch.setattr(page, "match", match)
         patch.setattr(page, "warm_up", lambda methods: None)
         patch.setattr(page, "show_all", lambda *_, **__: (list(impacts()), [nasty]))

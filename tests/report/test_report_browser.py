@@ -33,11 +33,6 @@ def test_everything_is_drawn_without_errors_or_requests_and_nothing_overflows_or
     assert_quiet(browser)
 
 
-def move(browser: Any, place: int) -> None:
-    script = "const s = document.getElementById('time'); s.value = arguments[0]; s.dispatchEvent(new Event('input'))"
-    browser.execute_script(script, place)
-
-
 def front(browser: Any) -> float:
     """Half contact length as the table reads it."""
     return float(ask(browser, "document.querySelector('#readout tr:nth-child(2) td').textContent"))
@@ -45,9 +40,10 @@ def front(browser: Any) -> float:
 
 def test_slider_moves_the_contact_front_and_other_impacts_can_be_chosen(browser: Any) -> None:
     last = int(ask(browser, "Number(document.getElementById('time').max)"))
+    move = "const s = document.getElementById('time'); s.value = arguments[0]; s.dispatchEvent(new Event('input'))"
     fronts, instants = [], []
     for place in (0, last // 2, last):
-        move(browser, place)
+        browser.execute_script(move, place)
         fronts.append(front(browser))
         instants.append(ask(browser, "document.getElementById('instant').textContent"))
     assert fronts[0] < fronts[1] < fronts[2] and len(set(instants)) == 3

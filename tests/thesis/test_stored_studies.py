@@ -44,6 +44,7 @@ def test_stored_studies_carry_their_tables_and_pictures_and_are_confirmed_by_a_r
     given = case(10.0, 0.002)
     small = replace(given, impact=given.impact.replace(length=2.0))
     monkeypatch.setattr(stored_studies, "case_of", lambda name: small)
+    monkeypatch.setattr(stored, "digest_of", lambda *of: "of today")
     file = tmp_path / "studies.json"
     two = {name: stored_studies.STUDIES[name] for name in ("restitution", "friction")}
     monkeypatch.setattr(stored_studies, "STUDIES", {"restitution": two["restitution"]})
