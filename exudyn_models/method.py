@@ -87,7 +87,8 @@ class ExudynModel(Part):
         """The parts of a run of ``impact`` to ``end_time`` (s); what is open goes with the contact, and mesh and steps
         with the problem.
 
-        for_loads : the run measures what the loads of ``impact`` change: open steps are shorter, an open contact holds.
+        for_loads : the run measures what the loads of ``impact`` change: an open contact holds, and open
+        steps are shorter before a rigid wall, until waves are back from the ends.
         """
         shorter = FIRST_ORDER_STEPS if for_loads and self.integrator is None and impact.loaded_to_first_order else 1.0
         rigid = impact.wall_stiffness is None

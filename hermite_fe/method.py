@@ -85,7 +85,7 @@ class HermiteFE(Composition):
 
         A long beam is cut where nothing arrives, its ends following the free motion, and a zone that the load presses
         on is held behind the front: what lift the bare impact leaves would otherwise take up the load before the wall
-        does. Neither without loads.
+        does. Neither without loads, nor where the wall gives way.
         """
         if not impact.loaded_to_first_order or impact.wall_stiffness is not None:
             return self

@@ -146,7 +146,7 @@ def chosen_adapters(names: Sequence[str] = (), own: Sequence[Path] = ()) -> list
             raise InputError(f"adapter: {file} is not a file")
         if not re.fullmatch(r"[A-Za-z0-9_][\w.-]*", file.stem):
             raise InputError(
-                f"adapter: {file}: its name must begin with a letter or a digit and hold nothing but these"
+                f"adapter: {file}: its name must begin with a letter, a digit or _ and go on with these, . and -"
             )
         if file.stem in {one.name for one in chosen}:
             raise InputError(f"adapter: {file}: there is another adapter of the name {file.stem}; rename the file")

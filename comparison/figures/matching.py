@@ -29,7 +29,7 @@ DASHES = ("-", "--", ":", "-.")
 def write_match(rows: Sequence[MatchRow], out: Path) -> list[Path]:
     """``match.json``, ``match.csv`` and the plots that the rows have data for, in ``out``; returns the files."""
     files = [out / "match.json", out / "match.csv"]
-    write_atomically(files[0], json_text(match_document(rows), indent=1))
+    write_atomically(files[0], json_text(match_document(rows), indent=1) + "\n")
     write_atomically(files[1], csv_text([row.to_dict() for row in rows]))
     return files + draw_matching(rows, out) + draw_work_precision(rows, out)
 
