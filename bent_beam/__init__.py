@@ -15,14 +15,21 @@ if TYPE_CHECKING:
 __all__ = ["Case", "Impact", "ImpactHistory", "InputError", "Method", "SimulationError", "load_case"]
 
 # The theory needs Impact and no more, an error message nothing: each is imported when it is asked for.
-_LATER = {"ImpactHistory": "history", "Impact": "impact", "Method": "method"}
-_LATER |= dict.fromkeys(("Case", "load_case"), "cases") | dict.fromkeys(("InputError", "SimulationError"), "errors")
+_LATER = {
+    "Case": "bent_beam.cases",
+    "load_case": "bent_beam.cases",
+    "ImpactHistory": "bent_beam.history",
+    "SimulationError": "bent_beam.errors",
+    "Impact": "bent_beam.impact",
+    "Method": "bent_beam.method",
+    "InputError": "bent_beam.errors",
+}
 
 
 def __getattr__(name: str) -> Any:
     if name not in _LATER:
         raise AttributeError(f"module 'bent_beam' has no attribute {name!r}")
-    return getattr(importlib.import_module(f"bent_beam.{_LATER[name]}"), name)
+    return getattr(importlib.import_module(_LATER[name]), name)
 
 
 def __dir__() -> list[str]:

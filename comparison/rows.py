@@ -195,8 +195,9 @@ def with_theory(question: MatchQuestion, leading: Any, estimate: Any) -> dict[st
     exact = contact_parameters(question.kappa_over_nu, **question.loads)
     row: dict[str, Any] = {"regime": str(exact.regime)}
     for name, source in (("lambda0", leading), ("r0", leading), ("lambda1", estimate), ("r1", estimate)):
+        number = MISSING if source is None else getattr(source, name)
         theory = getattr(exact, name) if name in ("lambda0", "r0") or question.first else None
-        row[name] = replace(getattr(source, name, MISSING), theory=theory)
+        row[name] = replace(number, theory=theory)
     return row
 
 

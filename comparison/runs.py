@@ -49,7 +49,7 @@ class Run:
 @dataclass(frozen=True)
 class Runs:
     """The run of a question and its companions by cause; ``lost``: a sentence for each that could not finish;
-    ``history`` of the run itself, where it was asked for or there was no store."""
+    ``history`` of the run itself, where it was asked for or nothing is kept."""
 
     question: Question
     run: Run

@@ -114,7 +114,7 @@ def _agreement(document: dict[str, Any]) -> list[str]:
     if (agreement := document["agreement"]) is None:
         return [*lines, "Theory and simulation do not agree at any of the times compared."]
     begin, end = (milliseconds(agreement[key]) for key in ("from", "until"))
-    span = f"at {end} alone" if begin == end else f"from {begin} to {end}"
+    span = f"at {end} alone" if agreement["from"] == agreement["until"] else f"from {begin} to {end}"
     return [*lines, f"Half length and impulse of theory and simulation agree {span} (within bars and 2 %)."]
 
 

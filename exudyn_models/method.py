@@ -21,7 +21,7 @@ from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.loads import unmodelled
 from bent_beam.meshes import MESHES, Mesh
-from bent_beam.method import Save, made_of, separation_times
+from bent_beam.method import Progress, Save, made_of, separation_times
 from exudyn_models import whole_beam
 from exudyn_models.assembly import MODELLED, Chosen, lay_out
 from exudyn_models.contacts import CONTACTS, Contact, Penalty, Rigid, Springs
@@ -166,7 +166,7 @@ class ExudynModel(Part):
         *,
         end_time: float | None = None,
         save: Save = 200,
-        progress: Callable[[float], None] | None = None,
+        progress: Progress | None = None,
     ) -> ImpactHistory:
         """Follow ``impact`` to ``end_time`` (s); see :func:`exudyn_models.simulate`.
 
@@ -181,7 +181,7 @@ class ExudynModel(Part):
         *,
         longest: float | None = None,
         save: int = 2000,
-        progress: Callable[[float], None] | None = None,
+        progress: Progress | None = None,
     ) -> ImpactHistory:
         """Follow ``impact`` until the beam has left for good (:func:`bent_beam.method.simulate_to_separation`)."""
         times, separation = separation_times(impact, longest, save), Separation(impact)

@@ -59,7 +59,7 @@ class FarField(Part, ABC):
     @property
     def damper(self) -> str:
         """What damps waves, in words ("": nothing)."""
-        return ""
+        return "the far field" if self.absorbs else ""
 
     @abstractmethod
     def dampings(self, beam: HermiteBeam, impact: Impact) -> Dampings:
@@ -74,7 +74,7 @@ class GridViscosity(FarField):
 
     @property
     def damper(self) -> str:
-        return "grid viscosity" if self.viscosity else ""
+        return "grid viscosity" if self.viscosity else super().damper
 
     def dampings(self, beam: HermiteBeam, impact: Impact) -> Dampings:
         return (("viscous", beam.stiffness(weight=self.viscosity * beam.lengths**2 / impact.wave_constant)),)

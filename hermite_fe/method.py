@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, Self
 
@@ -15,7 +14,7 @@ from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.loads import wall_scales
 from bent_beam.meshes import MESHES, UniformMesh
-from bent_beam.method import Save, made_of, separation_times
+from bent_beam.method import Progress, Save, made_of, separation_times
 from hermite_fe import resolution, whole_beam
 from hermite_fe.contacts import CONTACTS, NodeContact
 from hermite_fe.far_fields import FAR_FIELDS, GridViscosity
@@ -64,7 +63,7 @@ class HermiteFE(Composition):
         *,
         end_time: float | None = None,
         save: Save = 200,
-        progress: Callable[[float], None] | None = None,
+        progress: Progress | None = None,
     ) -> ImpactHistory:
         """Follow ``impact`` to ``end_time`` (s); see :func:`hermite_fe.simulate`.
 
@@ -170,7 +169,7 @@ class HermiteFE(Composition):
         *,
         longest: float | None = None,
         save: int = 2000,
-        progress: Callable[[float], None] | None = None,
+        progress: Progress | None = None,
     ) -> ImpactHistory:
         """Follow ``impact`` until the beam has left for good (:func:`bent_beam.method.simulate_to_separation`)."""
         if self.far_field is not None and self.far_field.absorbs:

@@ -11,6 +11,7 @@ import numpy as np
 
 from bent_beam.checks import MOST_INSTANTS, affordable, whole
 from bent_beam.errors import InputError
+from bent_beam.method import Progress
 from hermite_fe.active_set import CYCLING, NOT_FINITE, SINGULAR, SOLVED
 from hermite_fe.banded import product, stiff_product
 from hermite_fe.compiled import Array, Flags, Places, recompiling
@@ -214,7 +215,7 @@ def integrate(
     *,
     law: ContactLaw | None = None,
     save: int | Sequence[float] | Array = 200,
-    progress: Callable[[float], None] | None = None,
+    progress: Progress | None = None,
     until: Callable[[Stepper], bool] | None = None,
 ) -> Trajectory:
     """Step ``system`` from (q, v) at t = 0 to ``end_time``, s, or to the last of given times.

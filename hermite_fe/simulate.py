@@ -14,6 +14,7 @@ from bent_beam.history import ImpactHistory
 from bent_beam.hysteresis import branches_of
 from bent_beam.impact import WAVES_FELT, Impact
 from bent_beam.loads import UNSHEARED, unmodelled
+from bent_beam.method import Progress
 from hermite_fe import resolution
 from hermite_fe.compiled import Array, recompiling
 from hermite_fe.contacts import Contact, NodeContact
@@ -55,7 +56,7 @@ def simulate(
     *,
     end_time: float | None = None,
     save: int | Sequence[float] | Array = 200,
-    progress: Callable[[float], None] | None = None,
+    progress: Progress | None = None,
     until: Callable[[BeamModel, Stepper], bool] | None = None,
     **parts: Any,
 ) -> ImpactHistory:

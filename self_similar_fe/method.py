@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
@@ -12,7 +11,7 @@ from bent_beam.fields import Part, Quantity
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.loads import unmodelled
-from bent_beam.method import Save
+from bent_beam.method import Progress, Save
 from self_similar_fe.mesh import MESHES, ExpandingMesh
 from self_similar_fe.run import simulate_expanding
 
@@ -59,7 +58,7 @@ class SelfSimilarFE(Part):
         *,
         end_time: float | None = None,
         save: Save = 200,
-        progress: Callable[[float], None] | None = None,
+        progress: Progress | None = None,
     ) -> ImpactHistory:
         """Follow ``impact`` over the mesh's decades of time up to ``end_time``, s (by default 0.1 t*, but 0.01 T* at
         most)."""

@@ -21,7 +21,7 @@ from __future__ import annotations
 
 import math
 import time as clock
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -32,6 +32,7 @@ from bent_beam.errors import SimulationError
 from bent_beam.fields import describe
 from bent_beam.history import ImpactHistory, end_curvatures
 from bent_beam.impact import Impact
+from bent_beam.method import Progress
 from self_similar_fe.mesh import Array, ExpandingMesh
 from self_similar_fe.similarity import leading_obstacle, similarity
 
@@ -47,7 +48,7 @@ def simulate_expanding(
     *,
     end_time: float,
     save: int | Sequence[float] | Array = 200,
-    progress: Callable[[float], None] | None = None,
+    progress: Progress | None = None,
 ) -> ImpactHistory:
     """Follow an impact that :class:`self_similar_fe.SelfSimilarFE` takes over ``mesh.decades`` decades of time up to
     ``end_time`` (s).
@@ -139,7 +140,7 @@ class Run:
         velocity[1::2] = state.rate[1::2] + 0.5 * eta[1::2] - 0.5 * zeta * bend
         return velocity
 
-    def follow(self, progress: Callable[[float], None] | None) -> None:
+    def follow(self, progress: Progress | None) -> None:
         state = self.state
         backward = self.ratio / (self.ratio - 1.0)
         state.set_step(backward)

@@ -11,8 +11,8 @@ the second for a bow free of stress with free ends, without N and without viscos
 impulses act. On a mesh that expands with an infinite beam ∫μ z_t dx = J, z = y₀ − y being the fast part: absorber and
 end together take none of it (2e-5 of J at κ/ν = 0.5).
 
-v is taken as piecewise cubic: ∫v = Σ [h/2 (v₁ + v₂) + h²/12 (v₁′ − v₂′)], slopes by differences. Some elements make
-cubics of their sections' turning instead, or straight lines: the first equation takes what closes it best.
+v is taken as piecewise cubic: ∫v = Σ [h/2 (v₁ + v₂) + h²/12 (v₁′ − v₂′)], slopes by differences. Elements that shear
+make cubics of their sections' turning, or straight lines: of them the first equation takes what closes it best.
 """
 
 from __future__ import annotations
@@ -65,11 +65,11 @@ class Balance:
 
 def balance_of(history: ImpactHistory) -> Balance:
     """The checks of one run."""
-    missing = _of_fast_part(history) if "position" in history else _missing_momentum(history)
+    missing = [_of_fast_part(history)] if "position" in history else _missing_momentum(history)
     return Balance(
         limited_as(history),
-        None if missing is None else _residual(missing, history.array("total_impulse")),
-        _second_moment(history, missing),
+        _residual(min(missing, key=_largest_late), history.array("total_impulse")) if missing else None,
+        _second_moment(history, missing[0]) if missing else None,
         _points(history),
         _initial_energy(history),
         _gap_of_push(history),
@@ -124,7 +124,7 @@ def _middle_slope(history: ImpactHistory) -> float | None:
 
 
 def _largest_late(residual: Array) -> float:
-    """In the second half of the run."""
+    """Largest |residual| in the second half of the run."""
     return float(np.abs(residual[int(LAST * residual.size) :]).max())
 
 
@@ -134,34 +134,33 @@ def _residual(residual: Array, impulse: Array) -> float | None:
     return _largest_late(residual) / most if most > 0.0 else None
 
 
-def _missing_momentum(history: ImpactHistory) -> Array | None:
-    """N s at each instant. ``None`` where supports or an absorbing layer act, and where ends that follow pull at a
-    tangent that turns."""
+def _missing_momentum(history: ImpactHistory) -> list[Array]:
+    """N s at each instant, slopes by differences and, where the beam shears, straight and by its sections' turning.
+    Nothing where supports or an absorbing layer act, and where ends that follow pull at a tangent that turns."""
     impact, motion = history.impact, history.impact.free_motion(0.0)
     turned = impact.fourth_derivative or impact.curvature_rate
     if impact.supported or not _is_whole(history) or (impact.axial_force and turned and _ends_follow(history)):
-        return None
+        return []
     load = impact.load_within(0.5 * _length(history))
     if _ends_follow(history):
         load -= impact.bending_stiffness * float(motion(0.0, by_x=4)) * _length(history)
     x, velocity, given = history.positions(0), history.array("velocity"), load * history.time
-    slopes = [None, np.zeros_like(velocity)]
+    slopes: list[Array | None] = [None]
     if "angular_velocity" in history:
-        slopes.append(history.array("angular_velocity"))
+        slopes += [np.zeros_like(velocity), history.array("angular_velocity")]
     mass = impact.mass_per_length * 2.0 / history.sides
     gained = (mass * _integral(x, velocity, slope) for slope in slopes)
-    missing = (now - now[0] - given + history.array("total_impulse") for now in gained)
-    return min(missing, key=_largest_late)
+    return [now - now[0] - given + history.array("total_impulse") for now in gained]
 
 
-def _second_moment(history: ImpactHistory, missing: Array | None) -> float | None:
-    """``missing`` : of the momentum, N s. ``None`` where a layer, viscosity at grid scale or N acts, where ends that
-    follow carry moments, and before a plate or a stop, whose moment is small or given, and with Maxwell branches, whose
-    stretch is not kept."""
+def _second_moment(history: ImpactHistory, missing: Array) -> float | None:
+    """``missing`` : of the momentum, N s, slopes by differences, as those here. ``None`` where a layer, viscosity at
+    grid scale or N acts, where ends that follow carry moments, and before a plate or a stop, whose moment is small or
+    given, and with Maxwell branches, whose stretch is not kept."""
     impact, time = history.impact, history.time
     bent = impact.fourth_derivative or impact.curvature_rate or impact.natural_curvature is not None
     lossy = history.energy("loss_viscous")[-1] != 0.0 or impact.hysteretic_loss
-    if missing is None or not _is_whole(history) or lossy or impact.wall_in_part or impact.axial_force:
+    if not _is_whole(history) or lossy or impact.wall_in_part or impact.axial_force:
         return None
     turning = "slope" if impact.shear_stiffness is None else "angle"
     if (bent and _ends_follow(history)) or _is_arc(history) or turning not in history:

@@ -219,7 +219,10 @@ def first_order(
     }
     r1, lambda1 = _numbers(best, [np.array([c.r1.known, c.lambda1.known]) for c in companions], known)
     fitted = float(tail.tau[late][0]), float(tail.tau[-1])
-    return FirstOrderEstimate(lambda1, r1, float(reaction.mean()), tuple(row[0] for row in rows), fitted)
+    epsilons = tuple(row[0] for row in rows)
+    return FirstOrderEstimate(
+        lambda1=lambda1, r1=r1, uniform_reaction=float(reaction.mean()), epsilons=epsilons, window=fitted
+    )
 
 
 def _coefficient(rows: Sequence[tuple[float, Array, Array]], power: float, degree: int, start: float) -> float:

@@ -81,6 +81,7 @@ class WholeImpact:
     peak_force: float | None
     peak_force_time: float | None
     peak_force_place: float | None
+    peak_force_sharp: float
     push: float
     push_time: float
     push_rise: float
@@ -97,7 +98,6 @@ class WholeImpact:
     left: bool
     again: bool = False
     may_return: bool = False
-    peak_force_sharp: float = 0.0
 
 
 def pushes(time: Array, impulse: Array, shortest: float) -> list[tuple[int, int]]:
@@ -194,7 +194,7 @@ def _largest_force(history: ImpactHistory, until: float) -> dict[str, Any]:
     """`WholeImpact.peak_force` until a time, s, and what belongs to it."""
     impact, found = history.impact, wall_peaks(history, until=until)
     if found is None:
-        return dict.fromkeys(("peak_force", "peak_force_time", "peak_force_place"))
+        return dict.fromkeys(("peak_force", "peak_force_time", "peak_force_place")) | {"peak_force_sharp": 0.0}
     unit = impact.mass_per_length * impact.half_length * impact.velocity / impact.slow_time_scale
     return {
         "peak_force": found.force / unit,

@@ -169,7 +169,7 @@ def _of_numbers(found: Score) -> list[Symptom]:
     return shown
 
 
-#
+# Causes are named only where the first symptom has one cause alone.
 # A wall on springs pushes where it is penetrated, and by as much. A thin first front throws the zone off the wall as a
 # whole. Sums are wrong where momentum alone is violated. Everything else has several causes, and none is named.
 

@@ -90,8 +90,9 @@ def main(names: Sequence[str]) -> None:
     for name in names:
         if name not in known:
             raise SystemExit(f"{name} is not a measurement (known: {', '.join(known)})")
-    for name in names or known:
-        print(store_measurement(known[name], jobs=os.cpu_count() or 1))
+    for name, measurement in known.items():
+        if not names or name in names:
+            print(store_measurement(measurement, jobs=os.cpu_count() or 1))
 
 
 if __name__ == "__main__":

@@ -153,11 +153,12 @@ def run(arguments: Sequence[str] | None = None) -> int:
 
 
 NUMBER = re.compile(r"\s*[-+]?(?:(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?|nan|inf(?:inity)?)\s*", re.A | re.I)
-OF_FILES = ("--out", "--methods")  # whose names may look like such a number
+OF_FILES = ("--out", "--methods")
 
 
 def check_numbers(words: Sequence[str]) -> None:
-    """``InputError`` for what Python reads as a number and a reader may not: 1_0, digits of other scripts."""
+    """``InputError`` for what Python reads as a number and a reader may not: 1_0, digits of other scripts. Names of
+    files may look like that."""
     for before, word in zip(["", *words], words):
         option, value = word.split("=", 1) if word.startswith("--") and "=" in word else (before, word)
         for text in value.split(",") if option.startswith("-") and option not in OF_FILES else ():

@@ -248,3 +248,11 @@ def test_a_straight_bar_on_a_soft_wall_leaves_as_a_mass_on_a_spring_does(velocit
     for name, exact in wanted.items():
         number = found.numbers[name]
         assert abs(number.known - exact) <= number.bar < 0.01, (name, exact, number)
+
+
+def test_bounce_with_a_store_that_keeps_nothing_runs_as_often_as_without_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    made, simulate = [], HermiteFE.simulate_to_separation
+    monkeypatch.setattr(HermiteFE, "simulate_to_separation", lambda *a, **how: made.append(1) or simulate(*a, **how))
+    found = bounce(Impact.whole_beam(2.0, relative_damping=1e-2), HermiteFE(refine=0.125), store=RunStore(None))
+    count = len(made)
+    assert found.history.completed and len(made) == count

@@ -103,6 +103,8 @@ def test_a_match_whose_rows_are_all_refused_is_bad_input_and_still_a_document(ca
         (["predict", K10, "--time", "0", *EVEN], "is simulated"),
         (["predict", K10, "--theory-only", "--time", "1e-4", "--set", "run.end_time=1"], "--time says when"),
         (["predict", K10, "--time", "-1"], "error: --time: "),
+        (["predict", K10, "--time", "nan"], "error: --time: "),
+        (["predict", K10, "--time", "1e300"], "error: --time: "),
         (["simulate", *UNDAMPED, "--error-bars", "thorough"], "'thorough' has no effect without damping"),
         (["settings", "--json", "--markdown"], "--markdown writes the whole page"),
         (["study", "list", K10], "study list takes --json alone"),

@@ -64,7 +64,9 @@ OF_ROWS = [
 
 
 @pytest.mark.parametrize(("method", "kappa", "first", "where", "name", "within"), OF_ROWS)
-def test_a_constant_of_loaded_runs_and_of_thin_fronts(method, kappa, first, where, name, within, change):
+def test_a_constant_of_loaded_runs_and_of_thin_fronts_halved_or_doubled(
+    method, kappa, first, where, name, within, change
+):
     """λ₁ and r₁ stay near theory under a load that presses, λ₀ and r₀ where the bending ahead of the front is not
     resolved."""
     change(where, name)

@@ -27,6 +27,14 @@ SHEARED = Impact.whole_beam(0.5, relative_damping=3e-3, shear_length=0.05, shear
 LOSSY = SHEARED.replace(damping=0.0, hysteretic_loss=0.01, loss_frequency=1.0)
 SPRINGS = SHORT.replace(wall_stiffness=50.0)
 WAY = '.*model = "euler_bernoulli"'
+
+
+class Layer(GridViscosity):
+    """A far field of somebody's own."""
+
+    absorbs = True
+
+
 at_rest = partial(integrate, ball(), np.zeros(1), np.zeros(1))
 
 
@@ -88,6 +96,7 @@ REFUSED = [
     (lambda: simulate(SHEARED, contact=MiddleContact()), r"contact\.kind" + WAY),
     (lambda: simulate(SHEARED.replace(wall_stiffness=1e3), contact=MiddleContact()), "has no effect on a wall"),
     (lambda: HermiteFE(far_field=Sponge()).simulate_to_separation(SHEARED), "sponge absorbs waves"),
+    (lambda: HermiteFE(far_field=Layer(viscosity=0.0)).simulate_to_separation(SHEARED), "far field absorbs waves"),
     # a largest pull
     *((lambda kind=kind: at_rest(ALL[kind](1e-4), 1.0, law=ContactLaw(strength=np.ones(1))), "needs moreau_jean")
       for kind in ("penalty", "velocity", "position_velocity_acceleration")),

@@ -317,6 +317,38 @@ def test_the_largest_force_is_told_in_half_the_beams_momentum_a_period() -> None
     assert list(peak_times(told, HEAVY).values()) == pytest.approx([9.0, 0.75, 2.25, 0.18])
 
 
+UNITS = {"gap": 9.0, "slope": 3.0, "velocity": 0.5, "impulse": 12.0, "total_impulse": 12.0, "kinetic_energy": 6.0,
+         "strain_energy": 6.0, "contact_energy": 6.0}  # fmt: skip
+
+
+@pytest.mark.parametrize(("again", "shortest"), [(3.0, 2e-3), (0.6, 0.2)])
+def test_in_other_units_an_impact_is_the_same_and_what_springs_of_the_wall_hold_is_not_lost(again, shortest) -> None:
+    run = pushed_until(0.5, last=4.0, again=again)
+    time = run.dataset["time"]
+    held, lost = 0.05 * time, 0.1 * (time > again)
+    swung = run.dataset["gap"] * (1.1 + np.cos(4.0 * np.pi * time))  # it comes near the wall again
+    swings, given = 0.2 + 0.0 * time, 0.03 * (time > 3.9)
+    moves = 1.0 - held - lost - swings + given
+    run = ImpactHistory.of(
+        run.dataset.assign(contact_energy=held, kinetic_energy=moves, strain_energy=swings, gap=swung)
+    )
+    assert whole_impact(run, shortest=shortest).energy_gain == pytest.approx(0.03)
+    fields = {name: unit * run.array(name) for name, unit in UNITS.items()}
+    other = history_of(18.0 * run.time, 3.0 * run.positions(0), impact=HEAVY, **fields)
+    one, same = (dataclasses.asdict(whole_impact(history, shortest=shortest)) for history in (run, other))
+    for pairs in ("contacts", "returns"):
+        assert one[pairs] and np.ravel(same.pop(pairs)) == pytest.approx(np.ravel(one.pop(pairs)))
+    same["push_time"] = one["push_time"]  # a steady force is largest anywhere
+    drift, within = one.pop("drift"), one["within"]
+    assert same.pop("drift") == pytest.approx(drift)
+    assert drift["dissipated"] == pytest.approx(0.05 * within) and drift["restitution"] == 0.0  # what springs take up
+    assert same == pytest.approx(one | {"supplied": 6.0 * one["supplied"]})
+    for hit, alike in zip(hits(run), hits(other), strict=True):
+        numbers = np.array(dataclasses.astuple(hit)[1:])
+        assert dataclasses.astuple(alike)[1:] == pytest.approx(numbers * [18.0, 18.0, 3.0, 12.0, 0.5, 0.5, 6.0, 6.0])
+    assert (hit.energy, hit.lost) == pytest.approx((0.9, 0.1))
+
+
 def test_the_largest_push_of_a_wall_that_gives_way_lies_between_saved_instants() -> None:
     """The force is smooth: eight times fewer instants tell it as well, though not at the instants themselves."""
     impact = Impact.whole_beam(0.5, relative_damping=1e-2).replace(wall_stiffness=2e4)

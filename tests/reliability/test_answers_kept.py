@@ -11,6 +11,7 @@ from types import SimpleNamespace
 
 import pytest
 from called import MAIN, answered, command, refused, started
+from here import CASES
 from strangers import Plain, Unlabelled
 
 from bent_beam import method as methods
@@ -185,6 +186,18 @@ def test_sources_edited_while_a_process_is_open_are_nobody_elses(monkeypatch):
     found = store_module.source_digest()
     store_module.source_digest.cache_clear()
     assert found.startswith(before.split()[0]) and str(os.getpid()) in found
+
+
+SIZES = (
+    "section.outer_diameter=1e154 section.density=5e-324 section.density=1e-70 section.fluid_density=1.7e308 "
+    "section.inner_diameter=1e200 section.yield_stress=5e-324 section.outer_diameter=1e55 beam.length=1e200 "
+    "beam.sagitta_length=1e200 beam.dogleg=1e300 beam.damping=1e308"
+).split()
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_sizes_that_cannot_be_calculated_with_are_refused_by_name(size):
+    assert size.partition(".")[0] in refused("predict", CASES / "drill_pipe.toml", "--theory-only", "--set", size)
 
 
 @pytest.mark.parametrize(("leave", "failed"), [(lambda: os._exit(0), 1), (lambda: os.chdir("/"), 0)])

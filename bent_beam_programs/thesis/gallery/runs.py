@@ -104,6 +104,6 @@ class Series:
 
     def outcomes(self, mass: str) -> list[Outcome]:
         """Those of a mass (a key of ``MASSES``)."""
-        case = self.curvature, self.duration
-        own = [thesis(label, *case, mass=MASSES[mass], **changed) for label, changed in self.runs.items()]
-        return own + reference_runs(*case)
+        about = self.curvature, self.duration
+        own = [thesis(label, *about, mass=MASSES[mass], **changed) for label, changed in self.runs.items()]
+        return own + reference_runs(*about)

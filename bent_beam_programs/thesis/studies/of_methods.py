@@ -10,10 +10,11 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import product
+from functools import cached_property
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.ticker import NullFormatter
 
 from bent_beam.cases import Case
@@ -56,6 +57,7 @@ class MethodOnCase:
         return Variant(self.method.label, method=method, value=value, setting=name, **about)
 
     def has(self, name: str) -> bool:
+        """Whether the method has a part of this name."""
         return name in getattr(self.method, "PARTS", {})
 
     def kinds(self, name: str) -> Mapping[str, type]:
@@ -63,6 +65,11 @@ class MethodOnCase:
         if not self.has(name):
             raise NotVaried(f"{self.method.path} has no {name}")
         return dict(self.method.PARTS[name])
+
+    @cached_property
+    def chosen(self) -> Any:
+        """The method with all that it leaves open chosen for the case."""
+        return chosen_for(self.method, self.case.impact, self.case.end_time)
 
     def part(self, name: str, *, filled: bool = False) -> Any:
         """A part as the method has it; where it is left open, of the kind that is chosen for the case.
@@ -73,7 +80,7 @@ class MethodOnCase:
         own = getattr(self.method, name)
         if own is not None and not filled:
             return own
-        chosen = getattr(chosen_for(self.method, self.case.impact, self.case.end_time), name)
+        chosen = getattr(self.chosen, name)
         if chosen is None:
             raise NotVaried(f"{self.method.path} chooses its {name} in the run: name one")
         if filled:
@@ -84,6 +91,7 @@ class MethodOnCase:
             return chosen
 
     def with_parts(self, **parts: Any) -> Method:
+        """A copy of the method with other parts."""
         changed: Method = dataclasses.replace(self.method, **parts)
         return changed
 
@@ -136,23 +144,23 @@ def runs_of_methods(
 
     A method that the study cannot use, and one that refuses the case, are rows with the reason.
     """
-    rows: list[Variant | Outcome] = []
-    for method, factor in product(methods, refines):
-        try:
-            finer = refined(method, factor)
-            if finer is None:
-                reason = f"refine: {method.path} does not know how to be refined (got {factor:g})"
-            elif not (reason := finer.refuses(case.impact) or ""):
-                found = vary(MethodOnCase(finer, case))
-                rows += [dataclasses.replace(run, label=method.label, refine=factor) for run in found]
-                continue
-        except NotVaried as error:
-            reason = f"not varied: {error}"
-        except ANY_FAILURE as error:
-            reason = str(error)
-        asked = Variant(method.label, case.impact, case.end_time, method, refine=factor)
-        rows.append(asked.lost(reason, refused=True))
-    return rows
+    return [one for method in methods for factor in refines for one in _runs(vary, case, method, factor)]
+
+
+def _runs(vary: Vary, case: Case, method: Method, factor: float) -> list[Variant | Outcome]:
+    try:
+        finer = refined(method, factor)
+        if finer is None:
+            reason = f"refine: {method.path} does not know how to be refined (got {factor:g})"
+        elif not (reason := finer.refuses(case.impact) or ""):
+            found = vary(MethodOnCase(finer, case))
+            return [dataclasses.replace(run, label=method.label, refine=factor) for run in found]
+    except NotVaried as error:
+        reason = f"not varied: {error}"
+    except ANY_FAILURE as error:
+        reason = str(error)
+    asked = Variant(method.label, case.impact, case.end_time, method, refine=factor)
+    return [asked.lost(reason, refused=True)]
 
 
 def draw_methods(sheet: Sheet, heading: str, outcomes: Sequence[Outcome]) -> None:
@@ -171,12 +179,20 @@ def draw_methods(sheet: Sheet, heading: str, outcomes: Sequence[Outcome]) -> Non
                 if points:
                     x, y = np.array(points, float).T
                     sheet.line(axis, x, np.maximum(y, SMALLEST), series=label, **mark | {"ls": "-", "lw": 0.7})
-            axis.set(yscale="log", ylabel=title)
-            axis.yaxis.set_minor_formatter(NullFormatter())
-            if drawn := [np.asarray(line.get_ydata(), float) for line in axis.lines]:  # over whole decades
-                low, high = np.log10([np.concatenate(drawn).min(), np.concatenate(drawn).max()])
-                axis.set_ylim(10.0 ** np.floor(low - 0.02), 10.0 ** np.ceil(high + 0.02))
+            _decades(axis)
+            axis.set_ylabel(title)
             axis.set_xticks(range(len(settings)), settings, rotation=45.0, ha="right", rotation_mode="anchor")
             axis.set_xlim(-0.4, len(settings) - 0.6)
         for axis in axes[-1]:
             axis.set_xlabel(heading)
+
+
+def _decades(axis: Axes) -> None:
+    """A logarithmic axis over whole decades."""
+    axis.set_yscale("log")
+    axis.yaxis.set_minor_formatter(NullFormatter())
+    drawn = [line.get_ydata() for line in axis.lines]
+    if drawn:
+        values = np.concatenate([np.asarray(y, float) for y in drawn])
+        low, high = np.log10([values.min(), values.max()])
+        axis.set_ylim(10.0 ** np.floor(low - 0.02), 10.0 ** np.ceil(high + 0.02))
