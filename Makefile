@@ -14,7 +14,7 @@ JOBS ?= 2
 
 help:
 	@echo "make report   match the simulations with the theory and write out/report/index.html"
-	@echo "make test     the test suite (about five minutes on two cores)"
+	@echo "make test     the test suite (about three minutes on two cores)"
 	@echo "make verify   longer checks; make fuzz: random input and kills; make bench: speed, as ratios"
 	@echo "make coverage do the error bars hold? methods drawn at random against the theory (SEED=N draws the same again)"
 	@echo "make faults   do the quick tests see broken lines? faults drawn at random, one at a time (SEED=N; hours)"

@@ -78,7 +78,7 @@ def bounce(
     """Follow a beam to its last separation by ``method``, and by what it names to compare with; where the case states
     no damping, over :data:`DAMPING_RATIOS`.
 
-    runs, seed : of the ensemble, where the beam has no damping. save : saved instants a T*.
+    runs, seed : of the ensemble, where the beam has no damping. save : saved instants a T*. store : of runs.
     Raises ``ValueError`` for what the method refuses, :class:`bent_beam.SimulationError` when it cannot finish.
     """
     case = case_of(beam)

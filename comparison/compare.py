@@ -173,9 +173,9 @@ def rerun_text(found: dict[str, Any]) -> str:
 
 
 def _again(old: ImpactHistory, progress: Progress | None) -> ImpactHistory:
-    settings, name = old.settings, "history's save"
+    settings, what = old.settings, "history's save"
     save = settings.get("save", old.time.size)
-    save = np.array([finite(name, time) for time in save]) if isinstance(save, list) else whole(name, save, 1)
+    save = np.array([finite(what, time) for time in save]) if isinstance(save, list) else whole(what, save, 1)
     if "end_time" not in settings:
         raise InputError("history's settings lack end_time: it cannot be run again")
     method = method_type(old.path)

@@ -196,6 +196,7 @@ def predict_case(
 ) -> PredictedCase:
     """Theory beside simulation at ``times`` (s, each ≥ 0), and, with ``whole``, the whole impact.
 
+    store : where runs are kept. progress : called with the finished fraction of the simulations.
     Raises ``ValueError`` for what the theory does not cover, :class:`bent_beam.SimulationError` where a simulation
     cannot finish.
     """
