@@ -58,7 +58,8 @@ def test_a_section_that_knows_its_shear_makes_timoshenko_s_beam_unless_euler_and
     assert found.shear_ratio == pytest.approx(pipe.shear_coefficient / 2.6, rel=1e-12)  # κ_sG/E: nothing moves along
     assert case(BOW | {"model": "euler_bernoulli"}).impact == found.unsheared
     assert case(PLAIN, None).impact.model == "euler_bernoulli"
-    assert case(PLAIN | {"shear_stiffness": 5e7, "model": "timoshenko"}, None).impact.shear_length == pytest.approx(0.2)
+    stated = case(PLAIN | {"shear_stiffness": 5e7, "model": "timoshenko"}, None).impact
+    assert stated.shear_length == pytest.approx(0.2) and stated.rotary_inertia == 0.0
 
 
 def test_stress_of_a_rectangle_under_moment_and_tension():
