@@ -12,7 +12,7 @@ from benchmarks.wall import settled
 from bent_beam import Impact
 from theory import contact_parameters, elastic_wall, predict, wall_prediction
 from theory.elastic_stop import SwungBeam
-from theory.elastic_wall import _loads, flat_limit, sharp_limit, wall_history
+from theory.elastic_wall import _loads, flat_limit, largest, sharp_limit, wall_history
 
 peak_force = cache(elastic_wall.peak_force)
 
@@ -216,3 +216,8 @@ def test_the_largest_force_is_not_below_any_that_the_record_holds():
         before, highest, after = (rod.stop_stiffness * tip[int(tip.argmax()) + k] for k in (-1, 0, 1))
         assert highest < force < highest + 0.25 * (highest - min(before, after))
         assert abs(when - time[tip.argmax()]) <= 0.5 * time[1]
+
+
+def test_the_largest_value_is_the_top_of_the_parabola_through_its_neighbours() -> None:
+    time = np.linspace(0.0, 1.0, 11)
+    assert largest(time, 2.0 - (time - 0.37) ** 2) == pytest.approx((0.37, 2.0), rel=1e-12)
