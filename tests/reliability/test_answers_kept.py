@@ -189,7 +189,7 @@ def test_sources_edited_while_a_process_is_open_are_nobody_elses(monkeypatch):
 
 
 SIZES = (
-    "section.outer_diameter=1e154 section.density=5e-324 section.density=1e-70 section.fluid_density=1.7e308 "
+    "section.density=1e-70 section.fluid_density=1.7e308 "
     "section.inner_diameter=1e200 section.yield_stress=5e-324 section.outer_diameter=1e55 beam.length=1e200 "
     "beam.sagitta_length=1e200 beam.dogleg=1e300 beam.damping=1e308"
 ).split()
