@@ -181,7 +181,7 @@ class Bounce:
             "contacts": [list(times) for times in self.outcome.contacts],
             "error_parts": {name: dict(n.parts) for name, n in self.numbers.items() if isinstance(n, Number)},
             "energy_residual": residual,
-            "energy_defect": residual,
+            "energy_defect": residual,  # its older name
             "numerical_loss": numerical_loss(reading["energy"]),
             "energy_gain": self.outcome.energy_gain,
             "energy_of_state": balance.energy,

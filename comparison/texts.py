@@ -133,10 +133,11 @@ def _largest(document: dict[str, Any]) -> list[str]:
         until, found = milliseconds(last["time"]), _scaled(last["simulation"][name], scale)
         lines.append(f"  until {until} (simulation): {found}")
     if whole is None:
-        return [*lines, f"  of the whole impact: not known here ({document['no_whole_impact']}); it may be larger"]
-    until, found = milliseconds(whole["span"][1]), _scaled(whole[name], scale)
-    lines.append(f"  of the whole impact, until {until} (simulation): {found}")
-    lines += [f"  {line}" for line in _over_damping(whole["over_damping"] or (), name, scale)]
+        lines.append(f"  of the whole impact: not known here ({document['no_whole_impact']}); it may be larger")
+    else:
+        until, found = milliseconds(whole["span"][1]), _scaled(whole[name], scale)
+        lines.append(f"  of the whole impact, until {until} (simulation): {found}")
+        lines += [f"  {line}" for line in _over_damping(whole["over_damping"] or (), name, scale)]
     if document["yield_stress"]:
         lines.append(f"  the material yields at: {document['yield_stress'] * 1e-6:.4g}")
     return lines

@@ -156,7 +156,7 @@ class ExudynModel(Part):
         if self.solver is None or not (explicit or rigid):
             return
         for name, value in vars(self.solver).items():
-            if value != getattr(NewtonSolver, name) and (explicit or name.startswith("contact_")):
+            if value is not None and (explicit or name.startswith("contact_")):
                 other = f"{type(integrator).__name__}, which is explicit" if explicit else "exudyn.contact.kind rigid"
                 yield f"exudyn.solver.{name} has no effect with {other}: leave it out (got {value!r})"
 

@@ -22,7 +22,8 @@ BLUE = [0.12, 0.35, 0.67, 1.0]
 
 @dataclass(frozen=True)
 class NewtonSolver(Part):
-    """How each implicit step is solved.
+    """How each implicit step is solved. What is left open (``None``) is as contact and beam ask for (:func:`filled`),
+    otherwise as :data:`USUAL`.
 
     The absolute tolerance and that of the contact are in units of the model's amplitude, and raised to the round-off of
     contact, elastic, viscous and axial forces (:func:`exudyn_models.assembly.settings_of`) where that is larger.
@@ -30,27 +31,42 @@ class NewtonSolver(Part):
 
     where: ClassVar[str] = "exudyn.solver"
 
-    absolute_tolerance: Annotated[float, Quantity("", "of the residual", above=0.0)] = 1e-8
-    relative_tolerance: Annotated[float, Quantity("", "of the residual", above=0.0)] = 1e-5
+    absolute_tolerance: Annotated[
+        float | None,
+        Quantity("", "of the residual", above=0.0, absent="1e-8 (damped whole beam 1e-5, elastic wall 1e-6)"),
+    ] = None
+    relative_tolerance: Annotated[
+        float | None, Quantity("", "of the residual", above=0.0, absent="1e-5 (damped whole beam 1e-8)")
+    ] = None
     contact_tolerance: Annotated[
-        float, Quantity("", "force below which a changed contact state does not repeat the step", above=0.0)
-    ] = 1e-4
-    iterations: Annotated[int, Quantity("", "largest number of Newton iterations a step", least=1)] = 25
+        float | None,
+        Quantity(
+            "", "force below which a changed contact state does not repeat the step", above=0.0,
+            absent="1e-4 (segment_friction 1e-2, elastic wall 1e-7)",
+        ),
+    ] = None  # fmt: skip
+    iterations: Annotated[
+        int | None, Quantity("", "largest number of Newton iterations a step", least=1, absent="25")
+    ] = None
     contact_iterations: Annotated[
-        int, Quantity("", "largest number of repetitions of a step until its contact state has settled", least=1)
-    ] = 300
+        int | None,
+        Quantity("", "largest number of repetitions until a step's contact state has settled", least=1, absent="300"),
+    ] = None
     contact_must_settle: Annotated[
-        bool, Quantity("", "fail when they run out; otherwise a warning counts the steps")
-    ] = True
-    halve_steps: Annotated[bool, Quantity("", "let Exudyn shorten a failed step (down to 1/1000)")] = False
+        bool | None, Quantity("", "fail when they run out; otherwise a warning counts the steps", absent="true")
+    ] = None
+    halve_steps: Annotated[
+        bool | None,
+        Quantity("", "let Exudyn shorten a failed step (down to 1/1000)", absent="false (segment_friction true)"),
+    ] = None
     initial_accelerations: Annotated[
-        bool, Quantity("", "start from the accelerations at t = 0 instead of from zero")
-    ] = True
+        bool | None, Quantity("", "start from the accelerations at t = 0 instead of from zero", absent="true")
+    ] = None
 
     def settings(self, amplitude: float, round_off: float, along: float) -> Any:
         """Fresh ``exudyn.SimulationSettings`` with these choices and no files; ``round_off`` of a force across the
         beam, and of one ``along`` it."""
-        settings = exu.SimulationSettings()
+        chosen, settings = filled(self, USUAL), exu.SimulationSettings()
         settings.solution.file.write = False
         settings.solution.sensors.active = False
         settings.linearSolver.solverType = exu.LinearSolverType.EigenSparse
@@ -58,23 +74,34 @@ class NewtonSolver(Part):
         time = settings.timeIntegration
         time.verboseMode = 0
         time.stepInformation = 0
-        time.adaptiveStep = self.halve_steps
-        time.generalizedAlpha.computeInitialAccelerations = self.initial_accelerations
+        time.adaptiveStep = chosen.halve_steps
+        time.generalizedAlpha.computeInitialAccelerations = chosen.initial_accelerations
         time.newton.useModifiedNewton = True
-        time.newton.absoluteTolerance = max(self.absolute_tolerance * amplitude, round_off, along)
-        time.newton.relativeTolerance = self.relative_tolerance
-        time.newton.maxIterations = self.iterations
+        time.newton.absoluteTolerance = max(chosen.absolute_tolerance * amplitude, round_off, along)
+        time.newton.relativeTolerance = chosen.relative_tolerance
+        time.newton.maxIterations = chosen.iterations
         time.discontinuous.useRecommendedStepSize = False
         time.discontinuous.ignoreMaxIterations = True  # whether they settled is judged elsewhere
-        time.discontinuous.maxIterations = self.contact_iterations
-        time.discontinuous.iterationTolerance = max(self.contact_tolerance * amplitude, 10.0 * round_off)
+        time.discontinuous.maxIterations = chosen.contact_iterations
+        time.discontinuous.iterationTolerance = max(chosen.contact_tolerance * amplitude, 10.0 * round_off)
         return settings
 
 
-def filled(stated: NewtonSolver | None, chosen: NewtonSolver) -> NewtonSolver:
-    """``chosen`` with what ``stated`` has otherwise than by default."""
-    own = {n: v for n, v in vars(stated).items() if v != getattr(NewtonSolver, n)} if stated else {}
-    return replace(chosen, **own)
+USUAL = NewtonSolver(
+    absolute_tolerance=1e-8,
+    relative_tolerance=1e-5,
+    contact_tolerance=1e-4,
+    iterations=25,
+    contact_iterations=300,
+    contact_must_settle=True,
+    halve_steps=False,
+    initial_accelerations=True,
+)
+
+
+def filled(stated: NewtonSolver | None, chosen: NewtonSolver) -> Any:
+    """``chosen`` with whatever is ``stated``."""
+    return replace(chosen, **{name: value for name, value in vars(stated or chosen).items() if value is not None})
 
 
 SOLVERS: dict[str, type] = {"newton": NewtonSolver}

@@ -35,7 +35,6 @@ LONG = 60.0  # s: a run that will take longer says so before it starts
 FLIGHT_BLOCK, WALL_BLOCK = 10, 40  # steps in flight, and near the wall, until the gap is looked at again
 CLEAR = 2.0  # a block ends before the fastest node of the beam could pass the smallest gap over this
 BETWEEN = 200  # steps between two reports of progress
-LOG = logging.getLogger(__name__)
 
 Until = Callable[[Recorder, float, Array, Array], bool]
 """Asked with the recorder, the time, q and v (model units): whether the run is to end."""
@@ -102,7 +101,8 @@ class Stepping:
         affordable("exudyn.integrator and mesh", steps, nodes, targets.size, MOST_WORK)
         if (expected := SECONDS * steps * nodes) > LONG:
             so_long = "up to" if self.flight else "about"
-            LOG.warning("%s %.2g minutes: %d steps of %d nodes", so_long, expected / 60.0, steps, nodes)
+            log = logging.getLogger("bent_beam")
+            log.warning("%s %.2g minutes: %d steps of %d nodes", so_long, expected / 60.0, steps, nodes)
         self.settings = settings_of(chosen, beam, contact)
         self.solver: Any = exu.MainSolverExplicit() if integrator.explicit else exu.MainSolverImplicitSecondOrder()
         self.settling: Settling | None = None  # explicit steps are not repeated
@@ -148,7 +148,8 @@ class Stepping:
     @property
     def _unsettled(self) -> bool:
         """Whether a step has ended with contacts that must settle and did not."""
-        return self.chosen.solver.contact_must_settle and self.settling is not None and self.settling.unsettled > 0
+        unsettled = self.settling is not None and self.settling.unsettled > 0
+        return unsettled and bool(self.chosen.solver.contact_must_settle)
 
     def __call__(self, mbs: Any, time: float) -> bool:
         try:

@@ -30,7 +30,7 @@ from exudyn_models.elements import chosen_element
 from exudyn_models.geometry import supports_or_plate
 from exudyn_models.integrators import Implicit, Trapezoidal
 from exudyn_models.resolution import STEP, near_buckling, resolving_step, shortest_element, step_of_wall
-from exudyn_models.solvers import filled
+from exudyn_models.solvers import NewtonSolver, filled
 
 M = TypeVar("M", bound=Any)  # :class:`exudyn_models.method.ExudynModel`, which has these functions as methods
 
@@ -76,8 +76,7 @@ def for_whole_beam(method: M, impact: Impact) -> M:
         contact = ON_PLATE if plate else _softer(UNHELD, slower**-2) if softer else UNHELD
     solver = method.solver
     if contact is not None and getattr(integrator, "flight_step", None):
-        of_flight = dataclasses.replace(contact.solver, relative_tolerance=RELATIVE, absolute_tolerance=ABSOLUTE)
-        solver = filled(solver, of_flight)
+        solver = filled(solver, NewtonSolver(relative_tolerance=RELATIVE, absolute_tolerance=ABSOLUTE))
     return dataclasses.replace(
         method,
         mesh=mesh,

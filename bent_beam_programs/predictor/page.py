@@ -39,7 +39,7 @@ CONSTANTS = {
     validity: ("TOLERANCE", "DISTANCE", "SWING", "FLAT", "SMALL_CHANGE", "FLATTEST_SOLVED", "SLOPE_LIMIT"),
     shear: ("FORGOTTEN", "FLATTEST_SHEARED"),
     damped_point: ("AHEAD_FROM",),
-    wall_prediction: ("FLATTEST_SETTLED", "LEAST_DAMPED", "ZONE_TIME", "ZONE_LENGTHS", "POINT_TIME"),
+    wall_prediction: tuple("FLATTEST_SETTLED LEAST_DAMPED ZONE_TIME ZONE_LENGTHS POINT_TIME SHARP_POINT_TIME".split()),
 }
 """Of `theory`, what its formulas in limits.js and instants.js need: there by the same names in small letters."""
 

@@ -15,6 +15,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from itertools import chain, repeat
 from pathlib import Path
+from string import ascii_lowercase
 from typing import Any
 
 import matplotlib
@@ -83,7 +84,7 @@ class Sheet:
         with style.figure(rows, columns, **{"width": width} | kwargs) as (self.figure_, axes):
             yield self.figure_, axes
             if letters and np.size(axes) > 1:
-                for axis, letter, text in zip(np.ravel(axes), "abcdefgh", chain(texts, repeat(""))):
+                for axis, letter, text in zip(np.ravel(axes), ascii_lowercase, chain(texts, repeat(""))):
                     self.panels[id(axis)] = letter
                     style.panel_label(axis, f"({letter})")
                     place = {"xycoords": "axes fraction", "xytext": (17, 0), "textcoords": "offset points"}
@@ -199,7 +200,11 @@ def item(name: str, *, beside: str = "", **parts: str) -> Callable[[Draw], Draw]
 def items(module: str, draw: Callable[..., None], rows: Iterable[tuple[Any, ...]]) -> None:
     """Register figures that one function draws: a row is id, title, caption, and what ``draw`` gets after the sheet."""
     for name, title, caption, *given in rows:
-        ITEMS[name] = Item(name, title, caption, module, partial(lambda given, sheet: draw(sheet, *given), given))
+        ITEMS[name] = Item(name, title, caption, module, partial(_draw, draw, given))
+
+
+def _draw(draw: Callable[..., None], given: Sequence[Any], sheet: Sheet) -> None:
+    draw(sheet, *given)
 
 
 def order(name: str) -> tuple[int, int, int, str]:

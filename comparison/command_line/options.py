@@ -6,7 +6,7 @@ import logging
 import math
 import sys
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager, nullcontext
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -166,7 +166,7 @@ def progress(title: str, quiet: bool) -> Iterator[Bar]:
     """Progress on standard error, with the time that is left, and what paths log for the user; a bar on a terminal
     only, and nothing where ``quiet``."""
     if quiet or not sys.stderr.isatty():
-        with nullcontext() if quiet else notices(partial(print, file=sys.stderr)):
+        with notices((lambda text: None) if quiet else partial(print, file=sys.stderr)):
             yield Bar(lambda done: None)
         return
     from rich.console import Console

@@ -28,7 +28,7 @@ from bent_beam.fields import Part, Quantity
 from exudyn_models.elements.beam import Beam, Element, shares
 from exudyn_models.geometry import Array, Flags, Geometry, Indices, LinearLimit
 from exudyn_models.integrators import GeneralizedAlpha, Integrator
-from exudyn_models.solvers import NewtonSolver
+from exudyn_models.solvers import USUAL, NewtonSolver
 
 TINY = 1e-30  # a gap that is a state and no length
 START = 0.01  # of the end time
@@ -178,7 +178,7 @@ class Contact(Part, ABC):
     where: ClassVar[str] = "exudyn.contact"
     integrator: ClassVar[Integrator] = GeneralizedAlpha()
     geometry: ClassVar[Geometry] = LinearLimit()
-    solver: ClassVar[NewtonSolver] = NewtonSolver()
+    solver: ClassVar[NewtonSolver] = USUAL
 
     def refuses(self, impact: Impact, element: Element, integrator: Integrator) -> str | None:
         """Why this contact cannot work with a beam, an element or an integrator (None: it can)."""

@@ -28,7 +28,7 @@ the end of the step.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, Any, ClassVar
 
 import exudyn.itemInterface as items
@@ -41,7 +41,7 @@ from exudyn_models.contacts.base import START, TINY, Contact, ContactRun, HeldSt
 from exudyn_models.elements import Beam, Element
 from exudyn_models.geometry import Array, Flags, element_times
 from exudyn_models.integrators import Integrator, Trapezoidal
-from exudyn_models.solvers import NewtonSolver
+from exudyn_models.solvers import USUAL, NewtonSolver
 
 STIFFNESS, DAMPING = 10.0, 3.0  # C and D
 PLASTIC = 40.0  # D behind a thin front
@@ -248,7 +248,7 @@ class Springs(Contact):
     integrator: ClassVar[Integrator] = Trapezoidal()  # conserves energy: an elastic wall gives back what it took
     # what elements much shorter than the zone leave as round-off is no residual; a contact that changes by less would
     # push on for a while as the beam leaves a soft wall
-    solver: ClassVar[NewtonSolver] = NewtonSolver(absolute_tolerance=1e-6, contact_tolerance=1e-7)
+    solver: ClassVar[NewtonSolver] = replace(USUAL, absolute_tolerance=1e-6, contact_tolerance=1e-7)
 
     def refuses(self, impact: Impact, element: Element, integrator: Integrator) -> str | None:
         if impact.opposite_wall is not None:

@@ -11,7 +11,7 @@ limit and little for an axially stiff beam.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, ClassVar
 
 import exudyn.itemInterface as items
@@ -24,7 +24,7 @@ from exudyn_models.contacts.base import Contact, ContactRun, Wall
 from exudyn_models.elements import ANCFCable, Beam, Element
 from exudyn_models.geometry import Array, Flags, Geometry, Indices, LinearLimit
 from exudyn_models.integrators import Integrator
-from exudyn_models.solvers import NewtonSolver
+from exudyn_models.solvers import USUAL, NewtonSolver
 
 TRUE_SHARE = 0.25  # of the curvature, true geometry
 OPEN = [0.1, -2.0, 0.0]  # states of a segment, neither sticking nor slipping
@@ -98,7 +98,7 @@ class SegmentFriction(Contact):
     geometry: ClassVar[Geometry] = LinearLimit(amplitude=0.02)
     # steps are halved where the point of contact runs along its chord faster than Newton's method can follow; and as
     # it runs, chords at rest on the wall open and close by forces of no consequence
-    solver: ClassVar[NewtonSolver] = NewtonSolver(halve_steps=True, contact_tolerance=1e-2)
+    solver: ClassVar[NewtonSolver] = replace(USUAL, halve_steps=True, contact_tolerance=1e-2)
 
     friction: Annotated[float, Quantity("", "Coulomb's coefficient", least=0.0)] = 0.0
     relative_stiffness: Annotated[float, Quantity("", "as for the nodal penalty, in EI/Δx⁴", above=0.0)] = 10.0

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from called import answered, refused
+from called import answered, command, refused
 from here import CASES
 from histories import rod
 
@@ -167,6 +167,7 @@ def test_theory_only_simulates_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     assert one["impulse"] < other["impulse"] and 3.5 < other["half_contact_length"] < 4.0 and other["valid"]
     assert found["agreement"] is None and "simulation" not in one
     assert found["whole_impact"] is None
+    assert "yields at: 931" in command("predict", PIPE, "--theory-only")[1]
     mistaken = ("--set", "hermite.integrator.kind=nonsense")
     assert "hermite.integrator.kind" in refused("predict", PIPE, "--theory-only", *mistaken)
 

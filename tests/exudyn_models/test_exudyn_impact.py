@@ -17,7 +17,7 @@ from bent_beam.meshes import NodesMesh, ScaleFreeMesh, UniformMesh
 from comparison.matching import answer
 from comparison.rows import MatchQuestion
 from comparison.store import RunStore
-from exudyn_models import ExudynModel
+from exudyn_models import ExudynModel, stepping
 from exudyn_models.contacts import Penalty, Rigid, SegmentFriction
 from exudyn_models.elements import ANCFCable, GeometricallyExact
 from exudyn_models.geometry import LinearLimit, TrueGeometry
@@ -81,6 +81,13 @@ def test_a_hold_behind_the_front_says_until_when_and_how_hard_it_pulled():
     assert hold["pull"] == pytest.approx(-gains.min() / gains.max(), rel=0.03)
     held = history.array("held_impulse")
     assert held[-1] < 0.0 and np.all(np.diff(held) <= 0.0)
+
+
+def test_a_run_of_minutes_is_announced_where_every_path_says_what_its_user_should_know(monkeypatch, caplog):
+    monkeypatch.setattr(stepping, "SECONDS", 1.0)
+    exudyn_models.simulate(HALF, mesh=coarse(), contact=Rigid(), save=2, until=lambda *_: True)
+    (said,) = caplog.record_tuples
+    assert said[0] == "bent_beam" and "minutes" in said[2]
 
 
 def test_newton_goes_no_further_than_the_round_off_of_the_bow_as_it_is_laid():

@@ -14,7 +14,7 @@ from exudyn_models import ExudynModel
 from exudyn_models.contacts import SegmentFriction, penalty
 from exudyn_models.elements import GeometricallyExact
 from exudyn_models.integrators import Trapezoidal
-from exudyn_models.solvers import NewtonSolver
+from exudyn_models.solvers import USUAL, NewtonSolver
 
 PAGE = [  # κ/ν, η/T*, this path's number and the Hermite path's of the finest mesh
     (float(kappa), stated(damping)[0], stated(ours)[0], stated(theirs.split()[-1])[0])
@@ -127,7 +127,8 @@ def test_an_ensemble_has_penalties_from_a_quarter_of_the_usual_on_and_coarser_el
 
 def test_one_setting_of_the_solver_leaves_the_others_as_they_are_chosen() -> None:
     beam = Impact.whole_beam(2.0, relative_damping=1e-2)
-    for name, value in (("iterations", 50), ("relative_tolerance", 1e-4)):
+    usual = USUAL.absolute_tolerance  # which beam and wall ask for otherwise
+    for name, value in (("iterations", 50), ("relative_tolerance", 1e-4), ("absolute_tolerance", usual)):
         stated = NewtonSolver(**{name: value})
         for contact, impact in ((None, beam), (SegmentFriction(), beam), (None, beam.replace(wall_stiffness=1e4))):
             free, held = ExudynModel(contact=contact), ExudynModel(contact=contact, solver=stated)

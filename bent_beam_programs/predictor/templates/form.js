@@ -139,7 +139,7 @@ const Form = (() => {
       form.append(box);
     }
     find("#drag").addEventListener("input", drag);
-    find("#drag").addEventListener("change", () => grip(dragged.field));
+    find("#drag").addEventListener("change", () => dragged && grip(dragged.field));
     changed = listener;
     set(fromLink());
   }

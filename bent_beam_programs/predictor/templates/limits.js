@@ -41,7 +41,7 @@ const Limits = (() => {
   function rigidFrom({ b, contact: { ratio, lambda0 } }) {
     if (!b.wallStiffness) return 0;
     const time = sqrt(b.mass / b.wallStiffness), zeta = b.wallDamping / (2 * sqrt(b.wallStiffness * b.mass));
-    if (ratio >= 1) return time * V.point_time * ratio ** 0.25;
+    if (ratio >= 1) return time * max(V.point_time, V.sharp_point_time * ratio ** 0.25);
     if (ratio < V.flattest_settled || zeta < V.least_damped) return Infinity;
     return time * max(V.zone_time, (V.zone_lengths / lambda0) ** 2);
   }
