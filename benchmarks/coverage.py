@@ -39,7 +39,10 @@ from comparison.rows import First, MatchQuestion, MatchRow
 
 LEAST_SHARE = 0.94  # of the numbers within their bars; the bars are meant for 95 %
 MOST_BARS = 2.0  # that a number may be off
-PACKAGES = ("bent_beam", "hermite_fe", "self_similar_fe", "exudyn_models")
+PACKAGES = (
+    *("bent_beam", "theory", "hermite_fe", "self_similar_fe", "exudyn_models"),
+    *("comparison.matching", "comparison.rows", "comparison.runs"),
+)
 
 
 @dataclass(frozen=True)

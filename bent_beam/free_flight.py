@@ -25,7 +25,7 @@ from bent_beam.loads import loads_of
 
 Array = NDArray[np.float64]
 
-#: Period of the free–free beam's lowest mode over T*: 2π/(4.730/2)².
+#: Period of the free–free beam's lowest mode over T*, whatever the beam's ends: 2π/(4.730/2)².
 LOWEST_PERIOD = 2.0 * math.pi / (FIRST_MODE / 2.0) ** 2
 
 ROUND_OFF = 1e-9
@@ -89,18 +89,28 @@ def _last(history: ImpactHistory) -> State:
 
 def has_left(history: ImpactHistory) -> bool:
     """Whether a run ends with the beam off the wall for good: it cannot return, or, where that cannot be told, has not
-    pushed for a period of its lowest mode."""
+    pushed for :data:`LOWEST_PERIOD`."""
+    quiet = _quiet(history)
+    return quiet > 0.0 and _is_off(history.impact, quiet, lambda: _last(history))
+
+
+def is_over(history: ImpactHistory) -> bool:
+    """Whether a run holds a whole impact, as :class:`Separation` asks for it."""
+    return _quiet(history) >= LOWEST_PERIOD * history.impact.slow_time_scale and has_left(history)
+
+
+def _quiet(history: ImpactHistory) -> float:
+    """s at the end of a run since the last push; 0 without one."""
     pushed = np.flatnonzero(acting(history.array("total_impulse")))
-    quiet = history.time[-1] - history.time[pushed[-1]] if pushed.size else 0.0  # the run itself knows the step
-    return pushed.size > 0 and _is_off(history.impact, float(quiet), lambda: _last(history))
+    return float(history.time[-1] - history.time[pushed[-1]]) if pushed.size else 0.0  # the run itself knows the step
 
 
 def may_return(history: ImpactHistory) -> bool:
     """Whether a beam that has left may come back to its wall after the end of a run. A beam on a hinge does under
-    tension. A free one may unless (1) forbids it; a uniform pull only takes it farther away."""
+    tension, or pushed to it. A free one may unless (1) forbids it; a uniform pull only takes it farther away."""
     impact = history.impact
     if impact.supported:
-        return impact.axial_force > 0.0
+        return impact.axial_force > 0.0 or impact.net_load > 0.0
     if impact.net_load < 0.0 and not impact.off_centre:
         return False
     return impact.net_load > 0.0 or _turned_back(impact) or not _stays_clear(impact, *_last(history))
@@ -115,8 +125,8 @@ def _is_off(impact: Impact, quiet: float, state: Callable[[], State]) -> bool:
 
 
 class Separation:
-    """Says in the course of a run when a whole impact is over: the beam has not pushed for a period of its lowest mode,
-    in which its largest stress may still come, and is off the wall for good."""
+    """Says in the course of a run when a whole impact is over: the beam has not pushed for :data:`LOWEST_PERIOD`, in
+    which its largest stress may still come, and is off the wall for good."""
 
     def __init__(self, impact: Impact) -> None:
         self.impact = impact

@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 from bent_beam.checks import shortened
 from bent_beam.errors import ANY_FAILURE, InputError, SimulationError, TimeLimitError, nearest, unknown_key
 from bent_beam.fields import declared, describe, part_or_auto
-from bent_beam.free_flight import has_left
+from bent_beam.free_flight import is_over
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 
@@ -151,8 +151,8 @@ def separation_times(impact: Impact, longest: float | None = None, save: int = 2
 def simulate_to_separation(
     method: Method, impact: Impact, *, longest: float | None = None, save: int = 2000, progress: Progress | None = None
 ) -> ImpactHistory:
-    """Follow ``impact`` until the beam is off the wall and cannot come back (:mod:`bent_beam.free_flight`); under
-    loads, until it has not pushed for a period of its lowest mode.
+    """Follow ``impact`` until the beam is off the wall, for a period of a free beam's lowest mode, and without loads
+    cannot come back (:mod:`bent_beam.free_flight`).
 
     longest : s, where a beam that does not leave is given up (8 T* by default). save : saved instants a T*.
     A method without a way of its own is run to 1.5 T*, then twice as far and so on.
@@ -165,7 +165,7 @@ def simulate_to_separation(
     while True:
         saved = separation_times(impact, end, save)
         history = simulated(method.simulate, impact, end_time=end, save=saved, progress=progress)
-        if end >= last or has_left(history):
+        if end >= last or is_over(history):
             return history
         end = min(2.0 * end, last)
 

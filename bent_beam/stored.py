@@ -29,7 +29,7 @@ def write(
 ) -> Path:
     """Write ``data`` to ``file`` with what made it.
 
-    made_by : the command that makes the file anew. packages : of this project (dotted) whose code the
+    made_by : the command that makes the file anew. packages : of this project (dotted), or modules, whose code the
     numbers depend on. settings : JSON-ready.
     """
     made = {"what": what, **stamp(made_by), "packages": list(packages), "settings": plain(settings)}
@@ -60,10 +60,11 @@ def confirm(file: Path, **words: Any) -> None:
 
 
 def digest_of(packages: Sequence[str], settings: Mapping[str, Any]) -> str:
-    """Digest of the code of packages and of settings."""
+    """Digest of the code of packages, or of single modules, and of settings."""
     digest = hashlib.sha256(json.dumps(settings, sort_keys=True).encode())
     for package in packages:
-        for file in sorted(ROOT.joinpath(*package.split(".")).rglob("*.py")):
+        place = ROOT.joinpath(*package.split("."))
+        for file in sorted(place.rglob("*.py")) or [place.with_suffix(".py")]:
             digest.update(file.relative_to(ROOT).as_posix().encode())
             digest.update(_code(file).encode())
     return digest.hexdigest()

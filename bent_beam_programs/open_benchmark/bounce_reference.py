@@ -18,7 +18,7 @@ from bent_beam_programs.open_benchmark.references import BOUNCES, stored
 from hermite_fe import HermiteFE
 
 ELEMENTS = 600  # of a half beam
-PACKAGES = ("hermite_fe", "bent_beam")
+PACKAGES = ("hermite_fe", "bent_beam", "comparison.bouncing", "comparison.questions", "comparison.runs")
 
 
 def agrees(name: str, elements: int = SAMPLE) -> bool:

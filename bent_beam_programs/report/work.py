@@ -25,7 +25,10 @@ from comparison.store import RunStore
 STORED = Path(__file__).with_name("stored")
 LISTS = EXAMPLES / "methods"
 KAPPA = 0.5
-PACKAGES = ("hermite_fe", "self_similar_fe", "exudyn_models", "bent_beam")
+PACKAGES = (
+    *("bent_beam", "theory", "hermite_fe", "self_similar_fe", "exudyn_models"),
+    *("comparison.matching", "comparison.rows", "comparison.runs"),
+)
 KEPT = ("label", "path", "kappa_over_nu", "alpha", "psi", "chi", "axial", "refine", "lambda0", "r0", "lambda1", "r1",
         "lift", "pull", "seconds", "steps", "reason")  # fmt: skip
 

@@ -25,7 +25,10 @@ from bent_beam_programs.thesis.studies import STUDIES, run_study
 from comparison.workers import run_all
 
 FILE = Path(__file__).resolve().parents[1] / "stored_studies" / "studies.json"
-PACKAGES = ("hermite_fe", "exudyn_models", "self_similar_fe", "bent_beam.measure", "bent_beam_programs.thesis")
+PACKAGES = (
+    *("bent_beam", "theory", "hermite_fe", "self_similar_fe", "exudyn_models"),
+    *("comparison.matching", "comparison.rows", "comparison.runs", "bent_beam_programs.thesis"),
+)
 COLOURS = 256  # of a picture: a quarter of the bytes
 BEAM = {"bending_stiffness": 1.0, "mass_per_length": 1.0}
 

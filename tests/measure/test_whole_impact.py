@@ -16,6 +16,7 @@ from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.measure.whole_impact import hits, peak_times, pushes, whole_impact
 from bent_beam.meshes import UniformMesh
+from bent_beam.method import simulate_to_separation
 from exudyn_models import ExudynModel
 from hermite_fe import HermiteFE
 from hermite_fe.integrators import MoreauJean, NonsmoothGeneralizedAlpha, SignoriniPosition
@@ -199,6 +200,9 @@ def test_a_beam_that_has_left_does_not_return_and_one_that_swings_as_wide_as_it_
     assert has_left(history)
     later = method.for_whole_beam(impact).simulate(impact, end_time=3.0, save=200)
     assert later.array("total_impulse")[-1] == pytest.approx(history.array("total_impulse")[-1], rel=1e-6)
+    plain: Any = SimpleNamespace(simulate=method.for_whole_beam(impact).simulate)  # no way of its own to a separation
+    whole = simulate_to_separation(plain, impact, save=100)
+    assert whole.time[-1] > (whole_impact(whole).last_contact + LOWEST_PERIOD) * impact.slow_time_scale
     x, u = np.linspace(0.0, 1.0, 101), np.linspace(0.0, 1.0, 2001)
     flat, up, rigid = 0.5 * 2.0 * x**2, -0.5 * np.ones_like(x), 0.5 * 2.0 * 0.5**2
     # unit force on an end, held by inertia: Q = 3u² − 2u, M = Lu²(u − 1), L = 2; what the end yields by
