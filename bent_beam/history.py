@@ -1,7 +1,7 @@
 """The record of a run in SI units, the same for every path; as an ``xarray.Dataset`` for those who ask for one.
 
 Dimensions: ``time`` (the saved instants), ``x`` (nodes) and ``contact`` (contact points). ``bent_beam/files.py`` lists
-those that paths share, with dimensions and units; docs/guide/history.md says what each is.
+those that are checked, with dimensions and units; docs/guide/history.md says what each is.
 Attributes hold the case, the settings, versions and warnings as JSON text.
 """
 
@@ -226,7 +226,7 @@ class ImpactHistory:
         return self.moment / section["section_modulus"] + abs(self.impact.axial_force) / section["area"]
 
     def plot(self) -> Any:
-        """Force and stress (without a section moment) over time as a Matplotlib figure."""
+        """Force and stress (without a section the moment) over time as a Matplotlib figure."""
         from bent_beam.pictures import force_and_stress
 
         return force_and_stress(self)

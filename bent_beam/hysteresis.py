@@ -10,6 +10,9 @@ and holds by least squares over the range from a tenth of the first free–free 
 10⁴/t*, whichever is higher. Times lie evenly over the logarithm of the range. Rows are weighted by ω^−(2/π)atan η,
 since a constant loss makes the modulus grow by that power (Kramers and Kronig). Below the range the material is a
 spring EI_∞, above it a stiffer one, both without loss. (Simo, Hughes, Computational Inelasticity, 1998, chapter 10.)
+
+And what damping does to an answer: whether short waves die out (:func:`is_damped`), so that whole impacts converge
+(:func:`converges`).
 """
 
 from __future__ import annotations
@@ -29,7 +32,7 @@ BELOW, ABOVE, EARLIEST = 0.1, 1e6, 1e-4  # of the first mode, of the first mode,
 PER_DECADE, MARGIN = 1.5, math.sqrt(10.0)  # branches, and how far they go beyond either end of the range
 WEIGHT_OF_LOSS = 100.0  # weight of the loss frequency over that of any other
 LEAST_LOSS = 0.05  # with less, meshes, steps and contact laws scatter restitution by hundredths (docs/damping.md)
-SOFT = 0.05  # ℓ_k over L/2, from which on a wall takes the impacts of a beam without damping (docs/whole_impact.md)
+SOFT = 0.05  # ℓ_k over L/2: before softer walls impacts without damping converge (docs/whole_impact.md)
 RANGE = (1e-3, 1e6)  # times the first mode: where a loss frequency may lie
 
 

@@ -48,7 +48,7 @@ class Feature(Quantity):
 
 @dataclass(frozen=True)
 class Place(Feature):
-    """A field that is a place of the beam, m from its middle: both paths put a node there.
+    """A field that is a place of the beam, m from its middle: Hermite and Exudyn put a node there.
 
     outside : what a refusal of a place off the beam adds. load : the load whose place it is, without which it has no
     effect; "" for an edge of the wall.

@@ -32,7 +32,7 @@ MAXIMUM_NODES = 2_000_000  # beyond this a mesh is a typing error, not a wish
 
 @runtime_checkable
 class Mesh(Protocol):
-    """What both numerical paths ask of a mesh."""
+    """What Hermite and Exudyn ask of a mesh."""
 
     def nodes(self, half_length: float) -> Array:
         """Node places from 0 to ``half_length``, m, strictly increasing, shape (n,)."""

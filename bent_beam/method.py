@@ -5,8 +5,8 @@ A method is a small frozen dataclass. Its package names it in the entry-point gr
     [project.entry-points."bentbeam.methods"]
     my_code = "my_package:MyMethod"
 
-and from then on ``bentbeam simulate --path my_code``, ``match``, ``study`` and ``report`` know it. Nothing in this
-project needs to be touched.
+and from then on ``bentbeam simulate --path my_code``, ``match``, ``study`` and ``report`` know it;
+with ``for_whole_beam`` ``bounce`` and ``sweep`` do, too. Nothing in this project needs to be touched.
 """
 
 from __future__ import annotations
@@ -45,6 +45,7 @@ class Method(Protocol):
     ``for_whole_beam(impact)`` and ``simulate_to_separation(impact, …)`` (see the functions of these names);
     ``cross_checks(impact)`` (cause → a method to compare with, for the error bars of a whole impact) and
     ``varied(impact, random)`` (a copy with mesh, steps and contact law drawn at random, for a band);
+    ``perturbation`` (by how much of y₀ the largest load of a first-order row may change it);
     ``PARTS`` (field → registry of kinds), for methods made from tables; ``DEFAULT_KINDS`` (field → kind), those that
     a table means that names none.
     """

@@ -1,4 +1,5 @@
-"""The fields of an impact, its scales and dimensionless groups (theory.md, section 2; thesis 2.2.16, 2.2.36–37).
+"""The fields of an impact, its scales and dimensionless groups (docs/theory.md, section 1; thesis 2.2.16,
+2.2.46–48).
 
 l* = √(EI/μ)/V₀,  t* = l*/V₀: the fast layer;     T* = √(μL*⁴/EI): free vibration;     ε = t*/T*
 l_s = √(EI/κ_sGA),  t_s = √(EIμ)/κ_sGA: shear;     g = J κ_sGA/(EI μ): κ_sG/E without added mass

@@ -42,7 +42,7 @@ def doubts(impact: Impact, section: Section | None) -> list[str]:
         for name, (least, unit) in LIGHTEST.items()
         if (value := getattr(section, name, None)) is not None and value < least
     ]
-    radius = math.sqrt(impact.rotary_inertia / impact.mass_per_length)  # of gyration, where it is known
+    radius = section.radius_of_gyration if section else math.sqrt(impact.rotary_inertia / impact.mass_per_length)
     if impact.length < STUBBY * radius:
         found.append(
             f"the beam is only {impact.length / radius:.2g} radii of gyration long, and these numbers are for slender "

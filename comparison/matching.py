@@ -144,7 +144,8 @@ def _estimates(
 def answer(question: MatchQuestion, store: RunStore, limit: float | None = None) -> MatchRow:
     """Simulate and estimate one row; companion runs at other resolutions say what the error bar is.
 
-    limit : s, of the row. Raises :class:`Refused`, :class:`bent_beam.SimulationError`, :class:`TimeLimitError`.
+    limit : s, of the row. Raises :class:`Refused`, :class:`bent_beam.SimulationError`,
+    :class:`bent_beam.errors.TimeLimitError`.
     """
     run = partial(_run, store, question.duration, None if limit is None else Clock(limit))
     fine = _estimates(question, question.refine, run)

@@ -37,7 +37,7 @@ HELD_AGAINST = {"lambda0": 0.0, "r0": 0.0, "lambda1": 1.0, "r1": 1.0}
 
 LEGEND = (
     "± is the error bar, % the difference from theory. lift: largest gap inside the contact zone; pull: largest",
-    "adhesive over largest contact impulse; held: end of the bilateral start; s: seconds of its runs.",
+    "adhesive over largest contact impulse; held: until when contact was held; s: seconds of its runs.",
 )
 
 EXTREME = 1e30  # of ε: its powers are calculated with

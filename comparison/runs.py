@@ -24,7 +24,7 @@ from comparison.workers import run_all
 
 LEAST = 1e-4  # of a number: its least bar; beams drawn at random were off by as much where companions agreed better
 LIGHT = 3e-4  # η/T* below which a beam has hardly any damping …
-LEAST_LIGHT = 1e-3  # … and its late numbers this least bar, for the same reason
+LEAST_LIGHT = 1e-3  # … and its numbers after :data:`SHORT` this least bar, for the same reason
 CHATTER = 0.01  # of the largest moment: what single nodes add to it on a zone of hardly any damping
 Reading = Callable[[ImpactHistory], dict[str, Any]]
 """A function of a module, or a ``partial`` of one with JSON-ready positional arguments. What it returns is JSON-ready
@@ -151,8 +151,8 @@ def numbers_of(
 ) -> dict[str, Number]:
     """Numbers by name from the readings. known : of a name, cause → size of what no companion shows.
 
-    Late and without damping a number is the mean of all runs, its bar two standard deviations. A bar is
-    :data:`LEAST` of its number at least, or :data:`LEAST_LIGHT`.
+    Late and where the beam does not converge a number is the mean of all runs, its bar two standard deviations.
+    Otherwise a bar is :data:`LEAST` of its number at least, or :data:`LEAST_LIGHT`.
     """
     found, extra, least = dict[str, Number](), known or {}, LEAST_LIGHT if _is_light(runs.question) else LEAST
     scattered = runs.question.late and not converges(runs.question.impact)
@@ -170,8 +170,8 @@ def numbers_of(
 
 def unseen_of_moment(runs: Runs) -> dict[str, float]:
     """Errors of the largest moment that no companion shows, by cause: what it may have been in first instants that no
-    mesh resolves; what single nodes add to it on a zone without damping, or with hardly any once waves have run along
-    the beam."""
+    mesh resolves; what single nodes add to it where the beam does not converge, or on a zone with hardly any damping
+    once waves have run along the beam."""
     reading, impact = runs.run.reading, runs.question.impact
     hardly = _is_light(runs.question) and impact.kappa_over_nu < 1.0 and impact.wall_stiffness is None
     return {

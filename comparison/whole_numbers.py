@@ -1,6 +1,7 @@
 """The numbers of a whole impact: what each is measured in and called. A further one is a line of the table, and a field
-of :class:`bent_beam.measure.whole_impact.WholeImpact`; with a heading it is a column of a sweep. And what is said of a
-hit, in a table of hits.
+of :class:`bent_beam.measure.whole_impact.WholeImpact`; what no companion run shows of its error is named in
+:mod:`comparison.bouncing`. With a heading, and where its name begins with ``peak_moment``, a sweep has it. And what is
+said of a hit, in a table of hits.
 """
 
 from __future__ import annotations

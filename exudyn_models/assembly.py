@@ -126,7 +126,8 @@ def assemble(layout: Layout, chosen: Chosen, *, si: bool = False) -> tuple[Beam,
         _load_end(beam, node, sign, follows=layout.ends_follow)
     run = chosen.contact.attach(beam, _wall(beam, chosen))
     x = np.linspace(min(0.0, float(shape.x[0])), float(shape.x[-1]), 200)
-    line = np.stack([x, shape.wall_curvature * x**2 / 2, np.zeros_like(x)], axis=1) * units.length
+    wall = shape.wall_curvature * (x - shape.first_touch) ** 2 / 2
+    line = np.stack([x, wall, np.zeros_like(x)], axis=1) * units.length
     seen = items.VObjectGround(graphicsData=[graphics.Lines(line.tolist(), color=GREY)])
     system.AddObject(items.ObjectGround(visualization=seen))
     system.Assemble()

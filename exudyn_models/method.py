@@ -2,7 +2,8 @@
 
     μ y_tt + EI y_xxxx = EI q₀ + μ a₀ − r,   0 ≤ r ⊥ −y ≥ 0                       (thesis 2.1.1–2)
 
-The beam, its loads and its supports are laid out by :mod:`exudyn_models.assembly`.
+and what :data:`MODELLED` adds to it, by the equations of :mod:`bent_beam.impact`. The beam, its loads and its supports
+are laid out by :mod:`exudyn_models.assembly`.
 """
 
 from __future__ import annotations
@@ -224,7 +225,7 @@ def simulate(
         with the last of them.
     view : watch the run in Exudyn's viewer, until its window is told to go on (Q or Escape); without a display a line
         on standard error says so.
-    progress : called with the fraction stepping.
+    progress : called with the finished fraction.
     until : asked at every saved instant; the run ends with the first at which it says so.
     parts : mesh, element and so on, the fields of :class:`exudyn_models.method.ExudynModel`.
 

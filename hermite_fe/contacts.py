@@ -99,7 +99,8 @@ class Contact(Part, ABC):
     def rows(self, beam: HermiteBeam, facing: Array, *, full: bool) -> ContactRows:
         """The constraint rows of ``beam`` for g = y_w − y = −(u + facing).
 
-        u : the unknown dofs; facing : (dofs,), Hermite dofs of the bow as seen from the wall, −(K − K_w)x²/2.
+        u : the unknown dofs; facing : (dofs,), Hermite dofs of the bow as seen from the wall, −(K − K_w)(x − x₀)²/2
+            less the clearance, x₀ being where it touches first.
         """
 
 

@@ -1,4 +1,4 @@
-"""What happens to the waves that leave: nothing comes back, by a damping matrix, and what holds the far end.
+"""The far field: the damping matrix that takes waves out before the end of the mesh, and what holds that end.
 
 Waves whose length approaches the element are slowed, trapped and, where elements grow, sent back. A bending
 viscosity in proportion to the element's length squared,

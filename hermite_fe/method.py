@@ -116,7 +116,8 @@ class HermiteFE(Composition):
             integrator = integrator.with_steps(step, 0.0).refined(self.refine)
         elif integrator.time_step is None:
             step = whole_beam.step(impact, shortest)
-            integrator = integrator.refined(self.refine**2).with_steps(step, 0.0)  # those of elements refined already
+            # a stated growth shrinks as the step of refined elements does
+            integrator = integrator.refined(self.refine**2).with_steps(step, 0.0)
         else:
             integrator = integrator.with_steps(integrator.time_step, 0.0).refined(self.refine)
         return dataclasses.replace(

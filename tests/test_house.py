@@ -1,4 +1,4 @@
-"""The house: imports run downwards and are declared, the paths never meet, comparison knows no path by name."""
+"""The house: imports run downwards and are declared, the paths never meet, comparison treats no path by its name."""
 
 import ast
 import os

@@ -1,9 +1,11 @@
-"""The semi-analytic path: two-scale theory of a bent beam's impact on a rigid wall (thesis, chapter 2).
+"""The semi-analytic path: two-scale theory of a bent beam's impact on a wall, rigid (thesis, chapter 2) or
+elastic, and closed forms of single hits.
 
 `contact_parameters` solves the contact point, `ImpactFields` gives the beam around it, `SelfSimilarWave` the leading
 order in closed form, `peak_moment` its largest bending moment, and `predict` gives them for a physical
 impact with their range. The kernel is in `theory.kernel`, the φ functions in `theory.phi`. No answer here comes from
-a simulation; two bounds of its range do (how long shear is felt, how much damping of a beam's own a wall's law bears).
+a simulation; three bounds of its range do (how long shear is felt, on a rigid and on an elastic wall, and how much
+damping of a beam's own a wall's law bears).
 """
 
 from theory.contact import ContactParameters, contact_parameters

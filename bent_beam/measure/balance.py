@@ -5,7 +5,7 @@ Momenta of the modelled beam are integrated from the saved velocities, its mass 
 impulse, a lost mass or a missing load shows, whatever the solver books. With the test functions 1 and x²,
 
     [∫μ v dx]₀ᵗ    = P t − J,                                 P : all loads, less EI q₀L where the ends follow y₀
-    [∫μ x² v dx]₀ᵗ = P L²t/12 − 2EI [∫₀ᵗθ dt + ηθ]₀ᵗ − Σ x_i² J_i,          θ = y_x + Kx, less at −L/2 from at L/2
+    [∫μ x² v dx]₀ᵗ = P L²t/12 − 2EI [∫₀ᵗθ dt + ηθ]₀ᵗ − Σ x_i² J_i,          θ = [y_x + Kx] from −L/2 to L/2
 
 the second for a bow free of stress with free ends, without N and without viscosity at grid scale: it sees where the
 impulses act. On a mesh that expands with an infinite beam ∫μ z_t dx = J, z = y₀ − y being the fast part: absorber and

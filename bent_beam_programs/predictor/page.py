@@ -1,6 +1,6 @@
 """The page from its template. Nothing in it refers to anything outside.
 
-Its scripts stand in ``templates/``, in the order of ``MODEL``, ``SIMULATION`` and ``PAGE``; the first line of each says
+Its scripts stand in ``templates/``, in the order of ``MODEL``, ``SIMULATION`` and ``PAGE``; the head of each says
 what it is for. After a change, write the guide's copy anew: ``bentbeam predictor --out docs/predictor.html
 --overwrite``.
 """

@@ -88,7 +88,7 @@ def draw_force(axis: Any, history: ImpactHistory, end: float, words: str = "") -
 
 
 def draw_stress(axis: Any, history: ImpactHistory, end: float, words: str, yield_stress: float | None) -> None:
-    """Largest stress along the beam, without a section moment, over time; the largest is marked by ``words``."""
+    """Largest stress along the beam, without a section the moment, over time; the largest is marked by ``words``."""
     stress, inside = history.stress, history.time <= end
     values, what, si = (history.moment, "moment", "N m") if stress is None else (stress, "stress", "Pa")
     time, values = history.time[inside], values[inside]

@@ -1,4 +1,4 @@
-"""Contact with a rigid wall, which ``CONTACTS`` names for ``[exudyn.contact]``; the springs of an elastic wall stand
+"""The laws of contact with a rigid wall, by their kinds in ``[exudyn.contact]``; the springs of an elastic wall stand
 beside the penalty."""
 
 from exudyn_models.contacts.base import Contact, ContactRun, Wall

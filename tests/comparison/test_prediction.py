@@ -135,6 +135,7 @@ def test_a_gate_that_touches_all_at_once_mistaken_units_and_a_hole_that_bends_on
         return " ".join(doubts(case.impact, case.section))
 
     assert said() == "" and "are the sizes of the section in m?" in said(outer_diameter=1.0)
+    assert "radii of gyration" in said(outer_diameter=1.0, added_mass=5e4), "what moves along makes no beam slender"
     assert "youngs_modulus = 206 Pa" in said(youngs_modulus=206.0) and "is it in kg/m³" in said(density=2.7)
     hole = Impact.whole_beam(0.5).replace(opposite_wall=0.3, wall_curvature=0.1)
     assert "the second wall is flat" in doubts(hole, None)[-1] and doubts(hole.replace(wall_curvature=0.0), None) == []

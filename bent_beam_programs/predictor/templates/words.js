@@ -47,7 +47,6 @@ const Words = (() => {
     const back = restitution.value !== null && problem.load + problem.pull > 0;
     const pull = b.tension * b.length ** 2 / (Math.PI ** 2 * b.stiffness); // over the buckling load
     const bends = pull > 0 ? "straightens it" : "bends it further";
-    const radius = Math.sqrt(b.turning / b.mass); // of gyration, of a beam that shears
     const said = [
       [!settled, "Without damping the outcome is irregular and does not converge: a band is given."],
       [!settled, `${COMMAND} takes more runs for it.`],
@@ -59,7 +58,7 @@ const Words = (() => {
       [(b.curvature - b.wallCurvature) * b.length / 2 >= DOUBTS.steep, "The bow is steep: all this is for small slopes."],
       [Math.abs(pull) > DOUBTS.straightened && b.naturalCurvature === b.curvature, `The bow is not in equilibrium under the axial force, which ${bends}.`],
       [b.tension, `Stresses include ${quantity("stress", Beam.stress(b, 0), 4)} of the axial force.`],
-      [b.length < DOUBTS.stubby * radius, `The beam is only ${text(b.length / radius, 2)} radii of gyration long.`],
+      [b.length < DOUBTS.stubby * b.gyration, `The beam is only ${text(b.length / b.gyration, 2)} radii of gyration long.`],
     ];
     return said.filter(([is]) => is).map(([, sentence]) => sentence);
   }
