@@ -34,8 +34,8 @@ NOT_HELD = ("rotation", "curvature_rate", "fourth_derivative")  # motions that a
 
 @dataclasses.dataclass(frozen=True)
 class Impact(Scales):
-    """A bent beam about to hit a wall (SI units). Unless said otherwise its ends are free, the wall is rigid, and all is
-    symmetric about x = 0.
+    """A bent beam about to hit a wall (SI units). Unless said otherwise its ends are free, the wall is rigid, and
+    all is symmetric about x = 0.
 
     Units, meanings and ranges of the fields stand in :class:`bent_beam.scales.Scales`. Raises ``ValueError`` naming
     field and value.

@@ -50,8 +50,8 @@ def problem(kappa_over_nu: float, damping: float) -> Impact:
 
 
 def whole_reading(history: ImpactHistory) -> dict[str, Any]:
-    """A whole impact as it is kept, JSON-ready: the fields of :class:`bent_beam.measure.whole_impact.WholeImpact`, balance
-    and energies."""
+    """A whole impact as it is kept, JSON-ready: :class:`bent_beam.measure.whole_impact.WholeImpact`, balance and
+    energies."""
     found = asdict(whole_impact(history)) | {"balance": asdict(balance_of(history)), "energy": energy_at_end(history)}
     return found | {"loss": history.settings.get("hysteretic_loss")}
 

@@ -24,14 +24,14 @@ BEYOND = 1.0 + AROUND  # times an instant: how far a run must go to be read ther
 class Instant:
     """SI units; ``None`` is what does not exist.
 
-    half_contact_length : of the rim of what pushes, m; none where nothing does (of first instants 0). reaction : mean
-    force of the wall over a tenth of the time before and after, N. impulse : N s. peak_moment, peak_moment_place,
-    peak_moment_time : the largest moment of all steps so far, N m, m, s; moment_left_out : what it may have been at first
-    (:func:`bent_beam.measure.reduction.moment_left_out`). peak_force, peak_penetration, peak_pressure : of a wall that
-    gives way, so far, the force with its time, s, mean |x|, m, wall ("front", "opposite") and how sharp it is, N
-    (:class:`bent_beam.measure.reduction.WallPeaks`); the pressure not of a stop. impulse_around : at ``SHARES_AROUND``
-    of the time, N s. element : length of the one at the rim, m, or how far it jumps. lift : the largest inside the zone
-    in the last decade of time, over V₀t.
+    half_contact_length : of the rim of what pushes, m; none where nothing does (of first instants 0). reaction :
+    mean force of the wall over a tenth of the time before and after, N. impulse : N s. peak_moment,
+    peak_moment_place, peak_moment_time : the largest moment of all steps so far, N m, m, s; moment_left_out : what
+    it may have been at first (:func:`bent_beam.measure.reduction.moment_left_out`). peak_force, peak_penetration,
+    peak_pressure : of a wall that gives way, so far, the force with its time, s, mean |x|, m, wall ("front",
+    "opposite") and how sharp it is, N (:class:`bent_beam.measure.reduction.WallPeaks`); the pressure not of a stop.
+    impulse_around : at ``SHARES_AROUND`` of the time, N s. element : length of the one at the rim, m, or how far it
+    jumps. lift : the largest inside the zone in the last decade of time, over V₀t.
     """
 
     half_contact_length: float | None
