@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses
-import math
 import re
 import tomllib
 from collections.abc import Mapping, Sequence
@@ -160,7 +159,7 @@ BUCKLING = {  # by both ends
 def _check_buckling(impact: Impact) -> None:
     """Raise :class:`InputError` for a compression under which no bow is at rest."""
     share = BUCKLING[frozenset((impact.left_end, impact.right_end))]
-    most = share * math.pi**2 * impact.bending_stiffness / impact.length**2
+    most = share * impact.buckling_load
     if impact.shear_stiffness is not None and not impact.supported:
         most /= 1.0 + most / impact.shear_stiffness  # Engesser; of held ends the lowest mode tells
     if impact.axial_force < -most:

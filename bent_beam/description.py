@@ -123,8 +123,8 @@ def _damping(beam: BeamTable, wave: float) -> dict[str, Any]:
     way, amount = _one_of(beam, 1, required=False)
     measured, frequency = way in ("loss_factor", "hysteretic_loss"), beam.loss_frequency
     _only_with("beam.loss_frequency", frequency, "beam.loss_factor or beam.hysteretic_loss", measured)
+    mode = FIRST_MODE**2 * wave / (2.0 * math.pi * beam.length**2)
     if measured and amount and frequency is None:
-        mode = FIRST_MODE**2 * wave / (2.0 * math.pi * beam.length**2)
         raise InputError(
             f"beam.loss_frequency is required next to beam.{way} (got {amount!r} alone): the frequency, Hz, "
             f"at which it was measured; this beam's first free–free mode is at {mode:.4g} Hz"
@@ -132,7 +132,7 @@ def _damping(beam: BeamTable, wave: float) -> dict[str, Any]:
     if way == "hysteretic_loss" and amount:
         return {"hysteretic_loss": amount, "loss_frequency": frequency}
     if way == "damping_ratio":
-        amount *= 2.0 * (beam.length / FIRST_MODE) ** 2 / wave
+        amount /= math.pi * mode
     if way == "loss_factor":
         amount /= 2.0 * math.pi * (frequency or 1.0)
     return {"damping": amount}

@@ -108,6 +108,16 @@ class Scales(Part):
         return self.half_length**2 / self.wave_constant
 
     @property
+    def moment_scale(self) -> float:
+        """V₀√(EIμ), N m: the bending moment of a beam that is stopped at a point."""
+        return self.velocity * math.sqrt(self.bending_stiffness * self.mass_per_length)
+
+    @property
+    def buckling_load(self) -> float:
+        """π²EI/L², N: of a hinged beam, of a free one at rest (Euler)."""
+        return math.pi**2 * self.bending_stiffness / self.length**2
+
+    @property
     def epsilon(self) -> float:
         """ε = t*/T*, dimensionless: the small parameter of the expansion."""
         return (self.length_scale / self.half_length) ** 2

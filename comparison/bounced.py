@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -234,7 +233,7 @@ def scales(impact: Impact) -> dict[str, float]:
     return {
         "impulse": impulse,
         "time": impact.slow_time_scale,
-        "moment": impact.velocity * math.sqrt(impact.bending_stiffness * impact.mass_per_length),
+        "moment": impact.moment_scale,
         "length": impact.half_length,
         "force": impulse / impact.slow_time_scale,
     }

@@ -18,14 +18,14 @@ from bent_beam import Case, Impact, ImpactHistory, InputError, load_case
 from bent_beam.cases import case_from_tables
 from bent_beam.checks import finite
 from bent_beam.free_flight import LOWEST_PERIOD, may_return
-from bent_beam.hysteresis import converges
+from bent_beam.hysteresis import converges, first_mode
 from bent_beam.measure.balance import balance_of
 from bent_beam.measure.numbers import FACTOR, Band, Number
 from bent_beam.measure.whole_impact import Hit, hits, whole_impact
 from bent_beam.method import Method, for_whole_beam, separation_times
 from comparison.bounced import Bounce
 from comparison.doubts import energy_at_end
-from comparison.questions import Progress, Question
+from comparison.questions import SEED, Progress, Question
 from comparison.runs import Runs, bands_of, numbers_of, runs_of, unseen_of_moment
 from comparison.store import RunStore
 from comparison.whole_numbers import FINAL, NUMBERS
@@ -35,7 +35,6 @@ __all__ = ["DAMPING_RATIOS", "bounce", "case_of", "follow_hits", "problem", "who
 Beam = Case | Impact | str | Path | Mapping[str, Any]
 TIMES = ("last_contact", "peak_moment_time")
 RUNS = 24  # of a band
-SEED = 15
 DAMPING_RATIOS = (0.0002, 0.002, 0.02)  # of the first mode: bare steel, a bar as it is held, with joints
 LONGEST, INSTANTS = 100.0, 200  # T*, of the longest run that follows hits; saved a T* of it
 RESTS = 10.0  # periods of the lowest mode: a hit that lasts longer is the last
@@ -110,7 +109,7 @@ def _over_ratios(case: Case, method: Method, told: Progress, how: dict[str, Any]
     """Of the damping ratio with the largest moment, next to the others."""
     found, share = dict[float, Bounce](), 1.0 / len(DAMPING_RATIOS)
     for i, ratio in enumerate(DAMPING_RATIOS):
-        damping = ratio * LOWEST_PERIOD / math.pi * case.impact.slow_time_scale
+        damping = ratio / (math.pi * first_mode(case.impact))
         damped = replace(case, impact=case.impact.replace(damping=damping), damping_stated=True)
         found[ratio] = bounce(damped, method, **how, progress=lambda done, i=i: told(share * (i + done)))  # type: ignore[misc]
     return replace(max(found.values(), key=lambda one: one.numbers["peak_moment"].value or 0.0), over=found)

@@ -55,8 +55,7 @@ def doubts(impact: Impact, section: Section | None) -> list[str]:
         )
     if impact.opposite_wall is not None and impact.wall_curvature:
         found.append("the second wall is flat and the first one curved: their distance varies along the beam")
-    force, pull = impact.axial_force, impact.axial_force * impact.length**2
-    pull /= math.pi**2 * impact.bending_stiffness
+    force, pull = impact.axial_force, impact.axial_force / impact.buckling_load
     free = impact.natural_curvature in (None, impact.curvature) and not impact.supported
     if abs(pull) > STRAIGHTENED and impact.curvature and impact.tension_direction == "axis" and free:
         does = "tension, which straightens it" if pull > 0.0 else "compression, which bends it further"

@@ -106,8 +106,7 @@ def near_buckling(impact: Impact) -> float:
     """(1 − |N|/N_cr)^{−1/2} under compression, at most 1.5: the beam bends 1/(1 − |N|/N_cr) times as far, and what
     elements miss, ~ Δx², counts as much more. At 0.73 N_cr and κ/ν = 2 J is 0.35 % off with 50 elements, 0.1 % with
     100."""
-    share = impact.axial_force * impact.length**2 / (math.pi**2 * impact.bending_stiffness)
-    return min(max(1.0 + share, 1.5**-2), 1.0) ** -0.5
+    return min(max(1.0 + impact.axial_force / impact.buckling_load, 1.5**-2), 1.0) ** -0.5
 
 
 def shortest_element(mesh: Mesh, impact: Impact) -> float:

@@ -220,7 +220,7 @@ class _Bending:
         there is 0.24 of that at the contact at first and 0.56 of it in the end, as without damping.
         """
         impact = self.impact
-        unit = impact.velocity * math.sqrt(impact.bending_stiffness * impact.mass_per_length)
+        unit = impact.moment_scale
         before = 0.0
         if impact.natural_curvature is not None:
             before = impact.bending_stiffness * (impact.natural_curvature - impact.curvature)

@@ -150,9 +150,8 @@ def moment_left_out(history: ImpactHistory, until: float | None = None) -> float
     if "largest_moment" not in history or not impact.damping or impact.shear_stiffness or impact.wall_stiffness:
         return 0.0
     count = _instants(history, until)
-    most = impact.velocity * math.sqrt(impact.bending_stiffness * impact.mass_per_length)
     left_out = history.array("largest_moment", slice(1, _first_resolved(history, count)))
-    return min(float(left_out.max(initial=0.0)), most)
+    return min(float(left_out.max(initial=0.0)), impact.moment_scale)
 
 
 def _first_resolved(history: ImpactHistory, count: int) -> int:

@@ -16,7 +16,6 @@ hits; each is of one wall, and goes on while the other wall pushes, too.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -128,7 +127,6 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
     _, end, _ = hit[-1]
     last = 0.5 * float(time[end - 1] + time[end])
     until = min(float(time[contacts[-1][1]]) + LOWEST_PERIOD * unit, float(time[-1]))
-    moment = speed * math.sqrt(impact.bending_stiffness * impact.mass_per_length)
     peak, left = peak_moment(history, until=until), has_left(history)
     energy = history.array("kinetic_energy") + history.array("strain_energy")
     initial = float(energy[0])
@@ -156,11 +154,11 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
         impulse=2.0 * float(total[end]) / (mass * speed),
         last_contact=last / unit,
         separations=len(hit) - (0 if len(contacts) > len(hit) or left else 1),
-        peak_moment=peak.moment / moment,
+        peak_moment=peak.moment / impact.moment_scale,
         peak_moment_place=peak.place / impact.half_length,
         peak_moment_time=peak.time / unit,
-        moment_left_out=moment_left_out(history) / moment,
-        midspan_moment=peak.midspan / moment,
+        moment_left_out=moment_left_out(history) / impact.moment_scale,
+        midspan_moment=peak.midspan / impact.moment_scale,
         **_largest_force(history, until),
         push=2.0 * (float(gained[k]) + rise) / (mass * speed),
         push_time=float(time[begin]) / unit,

@@ -13,13 +13,26 @@ from pathlib import Path
 from typing import Any
 
 from bent_beam.files import write_atomically
-from bent_beam.hysteresis import SOFT
+from bent_beam.hysteresis import FIRST_MODE, SOFT
 from bent_beam.measure.numbers import FACTOR
+from bent_beam.measure.reduction import OF_BEAM
+from bent_beam.measure.whole_impact import SHORTEST_SEPARATION
+from bent_beam.method import LONGEST
 from bent_beam_programs.predictor.coefficients import coefficients
 from comparison.bouncing import DAMPING_RATIOS, RETURNS
 from comparison.doubts import LEAST_RESTITUTION, STEEP, STRAIGHTENED, STUBBY, WIDE
 from comparison.readable import BEAMS, BEFORE, LIMITS, REGIMES
 from comparison.runs import CHATTER, LEAST, LEAST_LIGHT, LIGHT
+from hermite_fe.whole_beam import (
+    DAMPED,
+    HARD,
+    LARGEST_ELASTIC,
+    ONE_POINT,
+    PRESSED,
+    SHEARED_ELEMENTS,
+    SHEARED_STEP,
+    THICK,
+)
 from theory import contact_parameters, damped_point, shear, validity, wall_prediction
 from theory.second_order import second_order
 
@@ -35,6 +48,10 @@ DOUBTS = {"wide": WIDE, "least_restitution": LEAST_RESTITUTION, "steep": STEEP, 
 BARS = {"factor": FACTOR, "least": LEAST, "light": LIGHT, "leastLight": LEAST_LIGHT, "chatter": CHATTER,
         "returns": RETURNS, "ratios": DAMPING_RATIOS, "soft": SOFT}  # fmt: skip
 """Of its error bars, the damping ratios that it takes where none is stated, and on which walls it takes none."""
+RUNS = {"elements": SHEARED_ELEMENTS, "step": SHEARED_STEP, "hard": HARD, "thick": THICK, "damped": DAMPED,
+        "point": ONE_POINT, "pressed": PRESSED, "largest": LARGEST_ELASTIC, "longest": LONGEST, "mode": FIRST_MODE,
+        "separation": SHORTEST_SEPARATION, "unresolved": OF_BEAM}  # fmt: skip
+"""Of its runs: elements and steps, what asks for finer ones or another scheme, and what is looked at."""
 CONSTANTS = {
     validity: ("TOLERANCE", "DISTANCE", "SWING", "FLAT", "SMALL_CHANGE", "FLATTEST_SOLVED", "SLOPE_LIMIT"),
     shear: ("FORGOTTEN", "FLATTEST_SHEARED"),
@@ -52,14 +69,16 @@ def constants() -> dict[str, float]:
 
 
 def script(names: tuple[str, ...] = (*MODEL, *PAGE)) -> str:
-    data = {"COEFFICIENTS": coefficients(), "VALIDITY": constants(), "WORDS": WORDS, "DOUBTS": DOUBTS, "BARS": BARS}
+    data = {"COEFFICIENTS": coefficients(), "VALIDITY": constants(), "WORDS": WORDS, "DOUBTS": DOUBTS, "BARS": BARS,
+            "RUNS": RUNS}  # fmt: skip
     return _script(data, names)
 
 
 def page() -> str:
     """The page as text, complete in itself. What the workers run stands in it once, as the page's own script."""
     text = _source("predictor.html").replace("{{ style }}", _source("predictor.css"))
-    return text.replace("{{ simulation }}", _script({"BARS": BARS}, SIMULATION)).replace("{{ script }}", script())
+    workers = _script({"BARS": BARS, "RUNS": RUNS}, SIMULATION)
+    return text.replace("{{ simulation }}", workers).replace("{{ script }}", script())
 
 
 def write_page(file: str | Path) -> Path:

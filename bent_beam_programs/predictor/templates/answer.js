@@ -12,12 +12,12 @@ const Answer = (() => {
 
   /** Elements a half beam, steps a T*, law: finer where a front is thin or damping small (hermite_fe/whole_beam.py). */
   function resolution(p) {
-    const point = p.kappa >= 2 && p.load + p.pull <= 0.5, hard = p.kappa < 0.35 || p.eta < 3e-4;
-    const base = { elements: hard ? 200 : 100, steps: hard ? 16000 : 8000, atPosition: point };
-    if (!p.wall) return base;
+    const { elements, step, hard, thick, damped, point, pressed, largest } = RUNS;
+    const finer = p.kappa < thick || p.eta < damped ? hard : 1, atPosition = p.kappa >= point && p.load + p.pull <= pressed;
+    if (!p.wall) return { elements: finer * elements, steps: round(finer * elements / step), atPosition };
     const length = p.wall.k ** -0.25;
-    return { elements: round(min(max(100, 4 / length), 300)),
-      steps: round(min(max(8000, 100 / length ** 2), 30000)) };
+    return { elements: round(min(max(elements, 1 / (largest * length)), 300)),
+      steps: round(min(max(elements / step, 100 / length ** 2), 30000)) };
   }
 
   /** The runs behind the numbers of p, by name: `base` and its companions, or, where they do not converge, an ensemble. */

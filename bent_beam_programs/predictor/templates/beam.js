@@ -3,7 +3,6 @@
 const Beam = (() => {
   const { sqrt, abs, PI } = Math;
   const GRAVITY = 9.80665; // m/s², standard
-  const FIRST_MODE = 4.730040744862704; // first root of cos z cosh z = 1, the free–free beam
 
   // quantity: [unit, its size in SI], metric and oilfield; several where a result picks the one that suits its size
   const UNITS = {
@@ -159,7 +158,7 @@ const Beam = (() => {
 
   /** η (s) of a damping ratio of the first free–free mode without shear. */
   const dampingTime = ({ stiffness, mass }, length, ratio) => (
-    2 * ratio * (length / FIRST_MODE) ** 2 / sqrt(stiffness / mass));
+    2 * ratio * (length / RUNS.mode) ** 2 / sqrt(stiffness / mass));
 
   /** SI units of ℓ = EI = μ = V₀ = 1. */
   function scales(b) {

@@ -5,10 +5,9 @@
 //   (M + ½hC + ¼h²K) Δv = h[F − K(q + ½hv) − Cv] + p,   q⁺ = q + h(v + ½Δv),   K = B + NG,   C = ηB
 const Solver = (() => {
   const { abs, max, min, sqrt } = Math, { PAD, element, assembled, row } = Elements;
-  const PERIOD = 2 * Math.PI / (4.730040744862704 / 2) ** 2; // of the lowest mode
-  const SEPARATION = 2e-3; // the shortest that counts, T*
-  const LONGEST = 8, EARLY = 0.05; // T*; until when the impulse of each step is kept, T*
-  const UNRESOLVED = 0.002; // T*: until then the first touch bends the mesh, not the beam
+  const { separation: SEPARATION, unresolved: UNRESOLVED } = RUNS; // T*: the shortest that counts; the first touch bends the mesh till then
+  const PERIOD = 2 * Math.PI / (RUNS.mode / 2) ** 2; // of the lowest mode
+  const LONGEST = RUNS.longest, EARLY = 0.05; // T*; until when the impulse of each step is kept, T*
   const spacing = (t) => max(1 / 2000, min(1 / 200, t / 60)); // of the frames, T*
 
   /** Matrices, loads and the state at the first touch. */
