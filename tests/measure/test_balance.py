@@ -171,5 +171,4 @@ def test_sound_sheared_runs_of_half_the_elements_have_nothing_to_warn_of(kind, r
 def test_a_push_between_the_few_nodes_that_a_soft_wall_touches_is_no_impulse_elsewhere() -> None:
     impact = Impact.whole_beam(3.93, relative_damping=8.6e-4).replace(wall_stiffness=24.7, wall_damping=0.5)
     history = HermiteFE(mesh=UniformMesh(1.0 / 22)).for_whole_beam(impact).simulate(impact, end_time=0.0577, save=100)
-    balance = balance_of(history)
-    assert balance.momentum < 1e-9 and balance.second_moment < 5e-3
+    assert balance_of(history).warnings == []
