@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from chromium import ask, assert_quiet, beyond_the_edge, needs_chromium, opened
+from chromium import ask, assert_quiet, beyond_the_edge, disquiet, needs_chromium, opened
 
 from bent_beam.cases import load_case
 from bent_beam_programs.predictor.page import write_page
@@ -101,7 +101,7 @@ def test_damping_has_three_states_and_the_page_starts_with_the_tube(chromium: An
     assert abs(value - 1e-6 * ask(browser, MOMENT) * unit / tube.section.section_modulus) <= 0.5 * error
 
 
-def test_a_slider_changes_the_field_last_touched_and_a_curve_follows(browser: Any) -> None:
+def test_a_slider_changes_the_field_last_touched_and_a_curve_follows(browser: Any, address: str) -> None:
     curve = "document.querySelector('#plot-stress path.curve')?.getAttribute('d')"
     until(browser, lambda: ask(browser, curve))
     before = ask(browser, curve)
@@ -111,6 +111,9 @@ def test_a_slider_changes_the_field_last_touched_and_a_curve_follows(browser: An
     )
     assert ask(browser, "document.getElementById('in-length').value") == "6"
     until(browser, lambda: ask(browser, curve) != before)
+    still = opened(browser, f"{address}#velocity=0")  # no field has a value that could be dragged
+    still.execute_script("document.getElementById('drag').dispatchEvent(new Event('change'))")
+    assert disquiet(still) == []
 
 
 def test_keyboard_alone_reaches_and_moves_everything(browser: Any) -> None:
