@@ -6,6 +6,7 @@ import dataclasses
 import difflib
 import inspect
 import logging
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -65,9 +66,15 @@ def about(word: str) -> list[Setting]:
 
 def _kinds(table: str, kinds: Mapping[str, type]) -> Iterator[Setting]:
     for kind, part in kinds.items():
-        title = (inspect.getdoc(part) or "").split("\n")[0]
-        yield Setting(table, kind, "kind", "", None, f'"{kind}"', title)
+        yield Setting(table, kind, "kind", "", None, f'"{kind}"', _first_sentence(part))
         yield from _fields(table, kind, part)
+
+
+def _first_sentence(part: type) -> str:
+    """Of its docstring, without the marks of Sphinx."""
+    paragraph = " ".join((inspect.getdoc(part) or "").partition("\n\n")[0].split())
+    plain = re.sub(r":\w+:|`", "", paragraph)
+    return plain.partition(". ")[0].removesuffix(".") + "." if plain else ""
 
 
 def _fields(table: str, kind: str | None, part: type) -> Iterator[Setting]:

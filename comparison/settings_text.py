@@ -12,10 +12,11 @@ HEAD = ["field", "unit", "default", "allowed", "what"]
 
 def settings_text(word: str = "") -> str:
     """Settings (:func:`about`) as tables for a terminal."""
-    return "\n\n".join(
-        f"[{table}]" + (f" kind = {kind}" if kind else "") + "\n" + text_table(HEAD, rows, left=(0, 4))
-        for (table, kind), rows in _tables(about(word)).items()
-    )
+    texts = []
+    for (table, kind), (title, rows) in _tables(about(word)).items():
+        head = f"[{table}]" + (f" kind = {kind}" if kind else "") + (f": {title}" if title else "")
+        texts.append("\n".join([head, *([text_table(HEAD, rows, left=(0, 4))] if rows else [])]))
+    return "\n\n".join(texts)
 
 
 def settings_markdown() -> str:
@@ -25,8 +26,10 @@ def settings_markdown() -> str:
         "",
         "Made from the code by `bentbeam settings --markdown`; a table is a table of a case file.",
     ]
-    for (table, kind), rows in _tables(settings()).items():
-        lines += ["", f"## `[{table}]`" + (f" kind = `{kind}`" if kind else ""), ""]
+    for (table, kind), (title, rows) in _tables(settings()).items():
+        lines += ["", f"## `[{table}]`" + (f" kind = `{kind}`" if kind else ""), "", *([title, ""] if title else [])]
+        if not rows:
+            continue
         rows = [HEAD, *([f"`{name}`", *others] for name, *others in rows)]
         columns = [column for column in zip(*rows) if any(column[1:])]
         rows = [[cell.replace("|", "\\|").replace("*", "\\*") for cell in row] for row in zip(*columns)]
@@ -35,11 +38,11 @@ def settings_markdown() -> str:
     return "\n".join([*lines, ""])
 
 
-def _tables(chosen: Iterable[Setting]) -> dict[tuple[str, str | None], list[list[str]]]:
-    """Rows by table and kind: field, unit, default, what is allowed, what it is."""
-    found: dict[tuple[str, str | None], list[list[str]]] = {}
+def _tables(chosen: Iterable[Setting]) -> dict[tuple[str, str | None], tuple[str, list[list[str]]]]:
+    """What a kind is, and rows, by table and kind: field, unit, default, what is allowed, what it is."""
+    found: dict[tuple[str, str | None], tuple[str, list[list[str]]]] = {}
     for s in chosen:
-        rows = found.setdefault((s.table, s.kind), [])
+        _, rows = found.setdefault((s.table, s.kind), (s.text if s.name == "kind" else "", []))
         if s.name != "kind":
             rows.append([s.name, s.unit, "required" if s.default is None else s.default, s.allowed, s.text])
     return found

@@ -54,9 +54,6 @@ class Contact(Part, ABC):
 
     where: ClassVar[str] = "contact"
 
-    sticks: ClassVar[bool] = False
-    """Whether :meth:`law` may have a strength: a whole beam then gets a scheme in which what has landed rests."""
-
     restitution: Annotated[float, Quantity("", "e", least=0.0, most=1.0)] = 0.0
     hold: Annotated[
         int, Quantity("", "constraints in the bilateral strip behind the front, until 0.005 T* at most", least=0)
@@ -73,6 +70,11 @@ class Contact(Part, ABC):
                 f"contact.{name} keeps rows closed that restitution {self.restitution!r} makes rebound: "
                 f"state one of them (got {value!r})"
             )
+
+    @property
+    def sticks(self) -> bool:
+        """Whether :meth:`law` has a strength: a whole beam then gets a scheme in which what has landed rests."""
+        return False
 
     @property
     def held(self) -> dict[str, float]:
@@ -92,7 +94,7 @@ class Contact(Part, ABC):
             shape = np.shape(law.strength)
             raise InputError(f"{name}.law must give one strength, or one a row, ({len(rows)},) (got shape {shape})")
         if np.any(law.strength) and not self.sticks:
-            raise InputError(f"{name}.law has a strength: set `sticks = True` in the class")
+            raise InputError(f"{name}.law has a strength: set `sticks` in the class, or let it say so")
         return law
 
     @abstractmethod

@@ -41,7 +41,7 @@ def refusal(impact: Impact, contact: Contact | None) -> str | None:
         if impact.hysteretic_loss:
             return f"hysteretic_loss is not modelled with shear (got {impact.hysteretic_loss!r}){UNSHEARED}"
         if contact is not None and impact.wall_stiffness is None and not isinstance(contact, NodeContact):
-            return f'contact.kind must be "node" with shear (got {type(contact).__name__}){UNSHEARED}'
+            return f'contact.kind must be "node" or "alternate" with shear (got {type(contact).__name__}){UNSHEARED}'
     return unmodelled(impact, MODELLED)
 
 

@@ -86,7 +86,7 @@ class GeneralizedAlphaPenalty(Integrator):
         if self.stiffness is None or self.damping is None:
             raise InputError("integrator.stiffness and integrator.damping are not chosen yet")
         if problem.rows.dofs.shape[1] != 1:
-            raise InputError('generalized_alpha_penalty takes contact.kind = "node" only')
+            raise InputError('generalized_alpha_penalty takes contact.kind = "node" or "alternate"')
         motion = alpha.motion_of(problem, state, self.spectral_radius)
         return PenaltyMemory(motion, constraints_of(problem.rows), self.stiffness, self.damping, self.contact_rounds)
 

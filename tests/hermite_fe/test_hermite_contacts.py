@@ -1,7 +1,7 @@
 """Unilateral contact along the beam; what the hold does; a wall that pulls a little; contact points without mass."""
 
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, Any
 
 import numpy as np
 import pytest
@@ -77,8 +77,11 @@ class QuarterContact(Contact):
 class AdhesiveContact(NodeContact):
     """Contact at nodes; the wall pulls those that have touched, with so much at most."""
 
-    sticks: ClassVar[bool] = True
     pull: Annotated[float, Quantity("N/m", "largest pull per length of beam", least=0.0)] = 0.0
+
+    @property
+    def sticks(self) -> bool:
+        return self.pull > 0.0
 
     def law(self, rows: ContactRows, hold_ends: float) -> ContactLaw:
         return super().law(rows, hold_ends)._replace(strength=self.pull * rows.tributary)
