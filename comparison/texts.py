@@ -281,9 +281,7 @@ def run_text(found: dict[str, Any], verbose: bool = False) -> str:
     ]
     if (hold := found["hold"]) and verbose:
         pulled = "" if hold["pull"] is None else f" and pulled at most {hold['pull']:.2g} of the largest push"
-        text.append(
-            f"held: contact points could pull until {hold['until']:.3g} s{pulled}; where held, the gap is imposed"
-        )
+        text.append(f"held: contact could pull until {hold['until']:.3g} s{pulled}; where held, the gap is imposed")
     if found["hits"]:
         text += ["", hits_table(found["hits"], BETWEEN_WALLS)]
     return _with_warnings(text, found) + (f"\nhistory: {found['file']}" if found["file"] else "")
