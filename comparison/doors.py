@@ -1,5 +1,5 @@
 """The doors for Python: what the commands of the same names answer, with the same numbers. What a command has more of,
-such as hits or other end times, has its driver, :mod:`comparison.bouncing`, :mod:`comparison.predicting` …"""
+such as hits or other end times, stands in its driver: :mod:`comparison.bouncing`, :mod:`comparison.predicting` …"""
 
 from __future__ import annotations
 

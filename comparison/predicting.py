@@ -57,10 +57,8 @@ def instants_reading(times: tuple[float, ...], first_spread: bool, history: Impa
     *before, found = (asdict(instant(history, t, first_spread=first_spread)) for t in times)
     if last > 0.0 and abs(found["reaction"] or 0.0) < ROUND_OFF * abs(found["impulse"]) / last:
         found |= {"reaction": 0.0, "half_contact_length": None}  # impulses of a beam in flight add up to round-off
-    if (
-        abs(found["peak_moment"] or 0.0) < ROUND_OFF * history.impact.moment_scale
-    ):  # of a straight beam that a wall presses evenly
-        found["peak_moment"] = 0.0
+    if abs(found["peak_moment"] or 0.0) < ROUND_OFF * history.impact.moment_scale:
+        found["peak_moment"] = 0.0  # of a straight beam that a wall presses evenly
     return found | {"before": before, "balance": asdict(balance_of(history)), "energy": energy_at_end(history)}
 
 

@@ -1,6 +1,6 @@
 """The numbers of a whole impact: what each is measured in and called. A further one is a line of the table, and a field
 of :class:`bent_beam.measure.whole_impact.WholeImpact`; what no companion run shows of its error is named in
-:mod:`comparison.bouncing`. With a heading, and where its name begins with ``peak_moment``, a sweep has it. And what is
+:mod:`comparison.bouncing`. With a heading, or where its name begins with ``peak_moment``, a sweep has it. And what is
 said of a hit, in a table of hits.
 """
 

@@ -129,7 +129,9 @@ def _together(
 
 
 def end_with_parent(parent: int) -> None:
-    """In a worker: leave as soon as the process ``parent`` is gone, busy or blocked, which no pipe tells reliably."""
+    """In a worker: leave as soon as the process ``parent`` is gone, busy or blocked, which no pipe tells reliably. And
+    log nothing, which would cross the parent's bar."""
+    logging.getLogger("bent_beam").addHandler(logging.NullHandler())
 
     def watch() -> None:
         while os.getppid() == parent:

@@ -239,9 +239,11 @@ class LinearLimit(Geometry):
         far = (reach if held else min(reach, MOVED * scaling.front)) + abs(scaling.first_touch)
         motion = scaling.motion_of(max(abs(scaling.kappa), abs(scaling.beam_kappa)))
         largest = FreeMotion({powers: abs(c) for powers, c in motion.terms.items()})
+        bent = FreeMotion({powers: c for powers, c in largest.terms.items() if powers not in ((0, 1), (2, 0))})
         swings = MODE_SLOPE * scaling.length / scaling.impact.half_length if held else 0.0
         swings *= float(largest(far, 1.0, by_t=1))  # over V₀: as fast as loads could make it until the end
-        return STEEPEST / max(1.0, float(largest(far, 1.0, by_x=1)), swings)
+        slopes = (float(largest(far, 1.0, by_x=1)), float(bent(reach, 1.0, by_x=1)))  # loads bend all that is modelled
+        return STEEPEST / max(1.0, *slopes, swings)
 
 
 @dataclass(frozen=True)

@@ -31,7 +31,7 @@ from exudyn_models.geometry import GEOMETRIES, Array, Geometry, supports_or_plat
 from exudyn_models.integrators import INTEGRATORS, Implicit, Integrator
 from exudyn_models.recording import Recorder
 from exudyn_models.resolution import chosen_mesh, chosen_steps, thin_front
-from exudyn_models.solvers import SOLVERS, NewtonSolver, filled, quiet
+from exudyn_models.solvers import SOLVERS, USUAL, NewtonSolver, filled, quiet
 from exudyn_models.stepping import Stepping, Until, saved_times
 from exudyn_models.warnings_of_run import warnings_of_run
 
@@ -107,7 +107,7 @@ class ExudynModel(Part):
             integrator=integrator,
             contact=contact,
             geometry=self.geometry or contact.geometry,
-            solver=filled(self.solver, contact.solver),
+            solver=filled(filled(self.solver, contact.solver), USUAL),
             full_beam=self.full_beam or impact.off_centre,
             plastic=min(self.refine, 1.0),
             mesh_given=self.mesh is not None,
@@ -156,8 +156,9 @@ class ExudynModel(Part):
         explicit, rigid = integrator.explicit, isinstance(contact, Rigid)
         if self.solver is None or not (explicit or rigid):
             return
+        usual = filled(contact.solver, USUAL)  # which a run that is repeated from its record states
         for name, value in vars(self.solver).items():
-            if value is not None and (explicit or name.startswith("contact_")):
+            if value not in (None, getattr(usual, name)) and (explicit or name.startswith("contact_")):
                 other = f"{type(integrator).__name__}, which is explicit" if explicit else "exudyn.contact.kind rigid"
                 yield f"exudyn.solver.{name} has no effect with {other}: leave it out (got {value!r})"
 

@@ -94,7 +94,7 @@ class Contact(Part, ABC):
             shape = np.shape(law.strength)
             raise InputError(f"{name}.law must give one strength, or one a row, ({len(rows)},) (got shape {shape})")
         if np.any(law.strength) and not self.sticks:
-            raise InputError(f"{name}.law has a strength: set `sticks` in the class, or let it say so")
+            raise InputError(f"{name}.law has a strength: set `sticks = True` in the class")
         return law
 
     @abstractmethod

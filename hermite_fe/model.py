@@ -172,8 +172,8 @@ def nodal_loads(
     """
     motion, load = impact.free_motion(0.0), np.zeros((2, beam.dofs))
     uniform = product(inertia, beam.interpolate(np.ones(s.size), np.zeros(s.size)))  # M·1
-    # a load without a term of y₀ is added here, at its node; half a beam takes half of a force in the middle
     load[0] = float(motion(0.0, by_t=2)) * uniform
+    # a load without a term of y₀ is added here, at its node; half a beam takes half of a force in the middle
     if follows:
         bent = motion.bending()
         shape = beam.interpolate(bent(s), bent(s, by_x=1) + impact.shear_length**2 * bent(s, by_x=3))

@@ -91,6 +91,9 @@ def _penetration(history: ImpactHistory) -> float | None:
     if impact.opposite_wall is not None:  # flat, behind the apex at the start
         front = impact.wall_clearance - 0.5 * impact.wall_curvature * (history.positions(0) - impact.first_touch) ** 2
         gap = np.minimum(gap, front + impact.opposite_wall - gap)
+    if _ends_follow(history):  # the expansion y₀ itself is in the wall where its gap, grown so far, falls again
+        x, start = np.abs(history.positions(0) - impact.first_touch), history.array("gap", 0)
+        gap = gap[:, x <= x[int(np.argmax(start))]]
     if "position" in history:  # the free motion means something where a node may touch
         gap = gap[:, : 1 + int(1.2 * np.flatnonzero(history.array("impulse", -1) > 0.0).max(initial=0))]
     depth = np.abs(gap.min(axis=1, initial=0.0))

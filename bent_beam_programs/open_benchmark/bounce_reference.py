@@ -18,7 +18,10 @@ from bent_beam_programs.open_benchmark.references import BOUNCES, stored
 from hermite_fe import HermiteFE
 
 ELEMENTS = 600  # of a half beam
-PACKAGES = ("hermite_fe", "bent_beam", "comparison.bouncing", "comparison.questions", "comparison.runs")
+PACKAGES = (
+    *("bent_beam", "hermite_fe", "comparison.bouncing", "comparison.questions", "comparison.runs"),
+    "bent_beam_programs.open_benchmark.exact",
+)
 
 
 def agrees(name: str, elements: int = SAMPLE) -> bool:
@@ -36,7 +39,7 @@ def _main() -> None:
     if parser.parse_args().confirm:
         if not all([agrees(name) for name in names]):
             parser.exit(1, "the stored references are stale: measure them anew\n")
-        confirm(BOUNCES)
+        confirm(BOUNCES, PACKAGES)
         return
     found = {}
     for name in names:

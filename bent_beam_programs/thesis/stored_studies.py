@@ -152,7 +152,7 @@ def confirm_studies(*, file: Path = FILE) -> None:
             old, new = pairs[row["label"]].get(key), row.get(key)
             if (old is None) != (new is None) or (old is not None and abs(new - old) > WITHIN * (1.0 + abs(old))):
                 raise ValueError(f"{name}, {row['label']}: {key} is {new}, stored {old}; run the study again")
-    stored.confirm(file, studies=[note | words_of(note["name"]) for note in before.values()])
+    stored.confirm(file, PACKAGES, studies=[note | words_of(note["name"]) for note in before.values()])
 
 
 def main() -> None:

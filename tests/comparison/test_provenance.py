@@ -57,6 +57,7 @@ def test_numbers_are_stale_once_code_or_settings_change_and_not_for_words(tmp_pa
     with_code()
     file = stored.write(tmp_path / "n.json", "areas", "python -m room.area", ["room"], {"mesh": 3}, {"areas": [6.0]})
     assert not stored.is_stale(file) and stored.read(file)["areas"] == [6.0]
+    module = stored.write(tmp_path / "m.json", "areas", "python -m room.area", ["room.area"], {}, {"areas": [6.0]})
     for old, new, stale in (
         ("# {}", "# another remark", False),
         ("In m².", "In square metres.\n\n    Of a rectangle.", False),
@@ -66,11 +67,14 @@ def test_numbers_are_stale_once_code_or_settings_change_and_not_for_words(tmp_pa
         ("width < 0.0", "width <= 0.0", True),
     ):
         with_code(old, new)
-        assert stored.is_stale(file) == stale, new
+        assert stored.is_stale(file) == stored.is_stale(module) == stale, new
     stored.confirm(file)
     assert not stored.is_stale(file) and "confirmed" in stored.read(file)
+    stored.confirm(module, ["room.area"])
     (room / "another.py").write_text("NUMBER = 1\n")
-    assert stored.is_stale(file)
+    assert stored.is_stale(file) and not stored.is_stale(module)
+    stored.confirm(module, ["room"])
+    assert stored.read(module)["packages"] == ["room"] and not stored.is_stale(module)
     (room / "another.py").unlink()
     document = stored.read(file)
     file.write_text(json.dumps(document | {"settings": {"mesh": 4}}))

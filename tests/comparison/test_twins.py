@@ -17,7 +17,8 @@ from bent_beam.meshes import UniformMesh
 from comparison.bouncing import follow_hits
 from comparison.compare import rerun_history
 from exudyn_models import ExudynModel
-from exudyn_models.contacts import Penalty
+from exudyn_models.contacts import Penalty, Rigid
+from exudyn_models.integrators import RK44
 from hermite_fe import HermiteFE
 
 OF_INSTANT = {"half_contact_length": "m", "element": "m", "reaction": "N", "impulse": "N s", "impulse_around": "N s"}
@@ -69,6 +70,13 @@ QUICK = ("Signorini, loads of the bow", "nonsmooth generalised-α, sheared", "ex
 def test_a_stored_history_is_enough_to_run_it_again_and_then_is_the_same_bit_for_bit(kind, tmp_path):
     found = rerun_history(ImpactHistory.load(simulated(kind).save(tmp_path / "run.nc")))
     assert found["identical"], found
+
+
+@pytest.mark.parametrize("parts", [{"contact": Rigid()}, {"integrator": RK44()}], ids=["rigid", "explicit"])
+def test_a_run_whose_solver_has_settings_without_effect_is_run_again(parts):
+    impact = Impact.whole_beam(2.0, relative_damping=1e-2)
+    history = ExudynModel(mesh=UniformMesh(1 / 10), **parts).simulate(impact, end_time=0.01, save=4)
+    assert rerun_history(history)["identical"]
 
 
 @pytest.mark.parametrize(("wall", "contact"), [(None, Penalty(stiffness=1e5)), (1e3, None)])

@@ -11,7 +11,7 @@ from bent_beam import Impact
 from bent_beam.free_flight import acting
 from bent_beam.meshes import UniformMesh
 from exudyn_models import ExudynModel
-from exudyn_models.contacts import SegmentFriction, penalty
+from exudyn_models.contacts import Penalty, SegmentFriction, penalty
 from exudyn_models.elements import GeometricallyExact
 from exudyn_models.integrators import Trapezoidal
 from exudyn_models.solvers import USUAL, NewtonSolver
@@ -123,6 +123,15 @@ def test_an_ensemble_has_penalties_from_a_quarter_of_the_usual_on_and_coarser_el
     assert 0.25 <= min(shares) < 0.5 < max(shares) <= 1.0
     usual = ExudynModel().for_whole_beam(impact).mesh.element_length
     assert all(usual < one.mesh.element_length < 3.0 * usual for one in drawn)
+
+
+class Hurried(Penalty):
+    solver = NewtonSolver(contact_iterations=1)  # of somebody's own, all else open
+
+
+def test_a_law_of_one_s_own_may_say_a_part_of_how_its_steps_are_solved() -> None:
+    chosen = ExudynModel(contact=Hurried()).chosen(Impact.dimensionless(0.5), 0.1).solver
+    assert chosen == dataclasses.replace(USUAL, contact_iterations=1)
 
 
 def test_one_setting_of_the_solver_leaves_the_others_as_they_are_chosen() -> None:

@@ -172,3 +172,9 @@ def test_a_push_between_the_few_nodes_that_a_soft_wall_touches_is_no_impulse_els
     impact = Impact.whole_beam(3.93, relative_damping=8.6e-4).replace(wall_stiffness=24.7, wall_damping=0.5)
     history = HermiteFE(mesh=UniformMesh(1.0 / 22)).for_whole_beam(impact).simulate(impact, end_time=0.0577, save=100)
     assert balance_of(history).warnings == []
+
+
+@pytest.mark.parametrize("load", [-3.0, 1.0])  # the first bends it off the wall everywhere, the second into it far away
+def test_a_load_that_bends_a_long_beam_far_away_is_linear_there_and_no_contact(load: float) -> None:
+    impact = Impact.dimensionless(0.5, length=1000.0, epsilon_psi=load)
+    assert balance_of(ExudynModel(refine=0.5).simulate(impact, end_time=0.1, save=50)).warnings == []
