@@ -41,8 +41,9 @@ def settings_markdown() -> str:
 def _tables(chosen: Iterable[Setting]) -> dict[tuple[str, str | None], tuple[str, list[list[str]]]]:
     """What a kind is, and rows, by table and kind: field, unit, default, what is allowed, what it is."""
     found: dict[tuple[str, str | None], tuple[str, list[list[str]]]] = {}
+    titles = {(s.table, s.kind): s.text for s in settings() if s.name == "kind"}
     for s in chosen:
-        _, rows = found.setdefault((s.table, s.kind), (s.text if s.name == "kind" else "", []))
+        _, rows = found.setdefault((s.table, s.kind), (titles.get((s.table, s.kind), ""), []))
         if s.name != "kind":
             rows.append([s.name, s.unit, "required" if s.default is None else s.default, s.allowed, s.text])
     return found

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from called import answered, refused
+from called import answered, command, refused
 from strangers import Plain
 
 import hermite_fe
@@ -68,3 +68,4 @@ def test_a_newcomer_starts_from_an_example_and_finds_a_key(tmp_path: Path):
     found = answered("settings", "loss_factor")
     assert {"loss_factor", "loss_frequency"} <= {one["name"] for one in found} and len(found) < 5
     assert "did you mean velocity?" in refused("settings", "velocty")
+    assert "[exudyn.contact] kind = penalty: Nodal penalty: the default." in command("settings", "hold_start")[1]
