@@ -23,16 +23,7 @@ from comparison.bouncing import DAMPING_RATIOS, RETURNS
 from comparison.doubts import LEAST_RESTITUTION, STEEP, STRAIGHTENED, STUBBY, WIDE
 from comparison.readable import BEAMS, BEFORE, LIMITS, REGIMES
 from comparison.runs import CHATTER, LEAST, LEAST_LIGHT, LIGHT
-from hermite_fe.whole_beam import (
-    DAMPED,
-    HARD,
-    LARGEST_ELASTIC,
-    ONE_POINT,
-    PRESSED,
-    SHEARED_ELEMENTS,
-    SHEARED_STEP,
-    THICK,
-)
+from hermite_fe import whole_beam
 from theory import contact_parameters, damped_point, shear, validity, wall_prediction
 from theory.second_order import second_order
 
@@ -48,8 +39,9 @@ DOUBTS = {"wide": WIDE, "least_restitution": LEAST_RESTITUTION, "steep": STEEP, 
 BARS = {"factor": FACTOR, "least": LEAST, "light": LIGHT, "leastLight": LEAST_LIGHT, "chatter": CHATTER,
         "returns": RETURNS, "ratios": DAMPING_RATIOS, "soft": SOFT}  # fmt: skip
 """Of its error bars, the damping ratios that it takes where none is stated, and on which walls it takes none."""
-RUNS = {"elements": SHEARED_ELEMENTS, "step": SHEARED_STEP, "hard": HARD, "thick": THICK, "damped": DAMPED,
-        "point": ONE_POINT, "pressed": PRESSED, "largest": LARGEST_ELASTIC, "longest": LONGEST, "mode": FIRST_MODE,
+RUNS = {"elements": whole_beam.SHEARED_ELEMENTS, "step": whole_beam.SHEARED_STEP, "hard": whole_beam.HARD,
+        "thick": whole_beam.THICK, "damped": whole_beam.DAMPED, "point": whole_beam.ONE_POINT,
+        "pressed": whole_beam.PRESSED, "largest": whole_beam.LARGEST_ELASTIC, "longest": LONGEST, "mode": FIRST_MODE,
         "separation": SHORTEST_SEPARATION, "unresolved": OF_BEAM}  # fmt: skip
 """Of its runs: elements and steps, what asks for finer ones or another scheme, and what is looked at."""
 CONSTANTS = {
