@@ -1,6 +1,7 @@
 """The command line is a contract: one JSON document, exit codes, one-line errors."""
 
 import json
+import logging
 import os
 import subprocess
 import sys
@@ -13,6 +14,7 @@ from histories import pushed_until
 
 from bent_beam import ImpactHistory, SimulationError
 from comparison.command_line.app import run
+from comparison.command_line.options import progress
 from comparison.compare import comparison_text
 from hermite_fe import HermiteFE
 from self_similar_fe import SelfSimilarFE
@@ -144,6 +146,13 @@ def test_a_companion_run_that_cannot_finish_is_a_warning(monkeypatch):
     assert found["lambda0"]["error"] > 0.0
     (warning,) = (w for w in found["warnings"] if "companion" in w)
     assert "no companion run" in warning and "the front left the mesh" in warning
+
+
+def test_what_a_path_logs_reaches_its_user_unless_quiet(capsys):
+    for quiet, said in ((False, "long\n"), (True, "")):
+        with progress("a run", quiet):
+            logging.getLogger("bent_beam").warning("long")
+        assert capsys.readouterr().err == said
 
 
 def test_help_fits_its_lines_and_has_an_example_for_every_command(capsys):
