@@ -1,7 +1,7 @@
 """What is read from Exudyn's state after each step, and the history made of it.
 
-Every energy comes from what causes it, so that their sum can be wrong. Over a step from 0 to 1, Δ the change and ¯ the
-mean of both ends, q̈ the accelerations in equilibrium with all forces (Mq̈ = f),
+Every energy comes from what causes it, so that an error shows: their sum does not close. Over a step from 0 to 1, Δ the
+change and ¯ the mean of both ends, q̈ the accelerations in equilibrium with all forces (Mq̈ = f),
 
     work of any force f            f̄ᵀΔq                   (for the linear elastic forces the change of strain energy)
     taken by the integration       (Mq̈)¯ᵀΔq − Δ(½vᵀMv)    the scheme's own kinematics, without force or stiffness

@@ -4,10 +4,11 @@
 
 The closed constraints, G x = c, are guessed; the system is solved (:mod:`hermite_fe.constraints`); the constraints
 whose sign is wrong are exchanged, until none is (a primal–dual active set; Hintermüller, Ito, Kunisch 2003, SIAM J.
-Optim. 13, 865). All wrong ones are exchanged while their number falls fast. Then, of each row of neighbours that are
-wrong in the same sense, only the worst is exchanged, and both of a row of two: a beam is stiff over a few nodes, so
-that this mends the others. When the number has not fallen for ``PATIENCE`` rounds, only the last is exchanged (Murty's
-rule; Júdice & Pires 1994, Comput. Oper. Res. 21, 587). After ``MOST_ROUNDS`` :func:`exchange_one` starts anew.
+Optim. 13, 865). All wrong ones are exchanged while their number falls fast. Then, of each run of neighbours that are
+wrong in the same sense, only the worst is exchanged, and both of a run of two: a beam is stiff over a few nodes, so
+that this mends the others. When the number has not fallen for ``PATIENCE`` rounds, only the wrong one of highest index
+is exchanged (Murty's rule; Júdice & Pires 1994, Comput. Oper. Res. 21, 587). After ``MOST_ROUNDS`` :func:`exchange_one`
+starts anew.
 
 Signs are judged against round-off: p against the terms of its equation, a gap against the largest deflection and slope.
 """

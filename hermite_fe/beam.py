@@ -3,7 +3,7 @@
 On an element of length l, with ξ = x/l ∈ [0, 1] and dofs (w₁, θ₁, w₂, θ₂), θ = dw/dx:
 
     N₁ = 1 − 3ξ² + 2ξ³,  N₂ = l(ξ − 2ξ² + ξ³),  N₃ = 3ξ² − 2ξ³,  N₄ = l(ξ³ − ξ²)     (thesis A.6)
-    Kₑ = EI ∫ N″ᵀN″ dx,   Mₑ = μ ∫ NᵀN dx,   V = ½ (q − q₀)ᵀ K (q − q₀)               (3.1.3–8)
+    Kₑ = EI ∫ N″ᵀN″ dx,   Mₑ = μ ∫ NᵀN dx,   V = ½ (q − q_f)ᵀ K (q − q_f), q_f unstressed    (3.1.3–8)
     Gₑ = ∫ N′ᵀN′ dx,      ½ N qᵀ G q: the work of an axial force N on the shortening of the axis (geometric stiffness)
 
 With a shear stiffness S (κ_sGA) θ is the angle of the section. The deflection is the cubic through the slopes θ₁ + γ

@@ -1,6 +1,6 @@
 """A wall that gives way: springs and dashpots along the beam that never pull.
 
-Per length of beam, p = u + facing the penetration and x₊ = max(x, 0),
+Per length of beam, p = u − (K − K_w)x²/2 the penetration (``facing`` is its second term) and x₊ = max(x, 0),
 
     R = max(0, k p + c ṗ) where p > 0,     W = ½k ∫ p₊² dx.
 

@@ -12,7 +12,7 @@ A beam with shear has waves of a largest speed: steps may be longer, in proporti
 the new position with θ = ½ rebounds nodes by chance where the front of a zone outruns shear waves, and under loads;
 Moreau–Jean does not. Of one point the position is nearer to converged values (docs/shear.md):
 
-    h = T* Δx/(80 · ½L),   Moreau–Jean, of one point that no load presses Signorini's law; all else as above.
+    h = T* Δx/(80 · ½L) and Moreau–Jean;   for κ/ν ≥ 2 or a stop, without a load that presses, Signorini's law.
 """
 
 from __future__ import annotations

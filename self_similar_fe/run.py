@@ -1,7 +1,7 @@
 """The impact of an infinite beam on a mesh that expands with √t: the front stands still in it.
 
 Elements are laid in ζ = ξ/√τ and move with ξ = ζ√τ. In the units of the fast layer (l*, t*, V₀t*) and with s = ln τ,
-w = τ W(ζ, s) and D = ∂_s − (ζ/2)∂_ζ along a moving node,
+w = τ W(ζ, s) and D = ∂_s − (ζ/2)∂_ζ, which is τ∂_τ at a fixed place,
 
     w_ττ + w_ξξξξ − n w_ξξ = load − r̃      becomes      D(D + 1) W + W_ζζζζ − nτ W_ζζ = τ (load − r̃)
 

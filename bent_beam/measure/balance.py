@@ -11,8 +11,8 @@ the second for a bow free of stress with free ends, without N and without viscos
 impulses act. On a mesh that expands with an infinite beam ∫μ z_t dx = J, z = y₀ − y being the fast part: absorber and
 end together take none of it (2e-5 of J at κ/ν = 0.5).
 
-v is taken as piecewise cubic: ∫v = Σ [h/2 (v₁ + v₂) + h²/12 (v₁′ − v₂′)], slopes by differences. Elements that shear
-make cubics of their sections' turning, or straight lines: of them the first equation takes what closes it best.
+v is taken as piecewise cubic: ∫v = Σ [h/2 (v₁ + v₂) + h²/12 (v₁′ − v₂′)], slopes by differences. Of elements that
+shear they may also be the sections' turning, or zero; the first equation takes of the three what closes it best.
 """
 
 from __future__ import annotations

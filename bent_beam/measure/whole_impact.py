@@ -1,6 +1,7 @@
 """What a run of the whole impact comes to, in the units ℓ = L/2, T* = ℓ²√(μ/EI), V₀ (docs/whole_impact.md).
 
-A hit is a time of contact whose gaps are shorter than a period of the first mode; these numbers are of the first:
+A hit is a time of contact whose interruptions are shorter than a period of the first mode; these numbers are of the
+first:
 
     e = −velocity of the centre of mass after it/before it,   J = impulse until then/(μℓV₀), without loads 2(1 + e),
 
