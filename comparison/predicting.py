@@ -102,7 +102,8 @@ def _crossings_of_force(runs: Runs) -> float:
         return 0.0
     changes = _changes_around(runs)
     more = np.ptp(changes, axis=1) - np.abs(changes[:, -1] - changes[:, 0])
-    return FACTOR * float(more.sum()) / (2.0 * AROUND * runs.question.until)
+    unsure = FACTOR * float(more.sum()) / (2.0 * AROUND * runs.question.until)
+    return unsure if unsure > ROUND_OFF * abs(runs.run.reading["impulse"]) / runs.question.until else 0.0
 
 
 def _changes_around(runs: Runs) -> Array:

@@ -14,7 +14,7 @@ from histories import rod
 
 from bent_beam import Impact
 from bent_beam.cases import case_from_tables, load_case
-from bent_beam.measure.numbers import Number
+from bent_beam.measure.numbers import FACTOR, Number
 from bent_beam.meshes import UniformMesh
 from comparison import predicting
 from comparison.bouncing import case_of
@@ -158,6 +158,14 @@ def test_a_warning_of_one_of_several_runs_says_of_which() -> None:
     off = [line for line in found.warnings if "do not balance" in line]
     assert [line.partition(":")[0] for line in off] == ["run to 10 ms", "run to 1e-06 ms"]
     assert any(line.startswith("the mesh cannot resolve") for line in found.warnings), "both runs say so"
+
+
+def test_the_round_off_of_an_impulse_is_no_force_that_companions_disagree_about() -> None:
+    for more, bar in ((2.0**-50, 0.0), (1e-3, FACTOR * 1e-3 / 0.2)):
+        readings = ({"impulse": 1.0, "impulse_around": [1.0, 1.0 + one, 1.0]} for one in (0.0, more))
+        run, other = (SimpleNamespace(reading=reading) for reading in readings)
+        runs: Any = SimpleNamespace(run=run, companions={"x": other}, question=SimpleNamespace(until=1.0))
+        assert predicting._crossings_of_force(runs) == pytest.approx(bar, rel=1e-9, abs=0.0)
 
 
 def test_theory_only_simulates_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
