@@ -6,7 +6,7 @@ w = τ W(ζ, s) and D = ∂_s − (ζ/2)∂_ζ, which is τ∂_τ at a fixed pla
     w_ττ + w_ξξξξ − n w_ξξ = load − r̃      becomes      D(D + 1) W + W_ζζζζ − nτ W_ζζ = τ (load − r̃)
 
 with coefficients free of time but for the axial force n = N/(μV₀²), a perturbation that grows like τ. Only the fast
-part η = w₀ − w is unknown (thesis 2.2.19–20); the free motion
+part w₀ − w = τη is unknown (thesis 2.2.19–20), pushed by ρ = τr̃; the free motion
 
     w₀ = τ W₀,   W₀ = 1 − κζ²/2 + ετ (α/2 + χζ²/2 + ψζ⁴/24)                                        (2.2.31)
 
