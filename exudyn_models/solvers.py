@@ -97,6 +97,7 @@ USUAL = NewtonSolver(
     halve_steps=False,
     initial_accelerations=True,
 )
+"""What is taken where neither user, contact nor beam says otherwise."""
 
 
 def filled(stated: NewtonSolver | None, chosen: NewtonSolver) -> Any:
