@@ -34,15 +34,11 @@ import numpy as np
 from bent_beam.files import write_atomically
 from bent_beam.method import method_from_tables
 from bent_beam.stored import write
-from comparison.matching import match
+from comparison.matching import CODE, match
 from comparison.rows import First, MatchQuestion, MatchRow
 
 LEAST_SHARE = 0.94  # of the numbers within their bars; the bars are meant for 95 %
 MOST_BARS = 2.0  # that a number may be off
-PACKAGES = (
-    *("bent_beam", "theory", "hermite_fe", "self_similar_fe", "exudyn_models"),
-    *("comparison.matching", "comparison.rows", "comparison.runs"),
-)
 
 
 @dataclass(frozen=True)
@@ -245,7 +241,7 @@ def main() -> int:
     figures, settings = asked.figure or asked.out, {"rows": asked.rows, "seed": asked.seed}
     command = f"python -m benchmarks.coverage --rows {asked.rows} --seed {asked.seed} --figure docs/figures"
     about = "errors of λ₀, r₀, λ₁, r₁ and their error bars, of methods drawn at random"
-    write(figures / "error-bars.json", about, command, PACKAGES, settings, dataclasses.asdict(found))
+    write(figures / "error-bars.json", about, command, CODE, settings, dataclasses.asdict(found))
     draw_figure(found, figures)
     print(found)
     for p, file in zip(found.misses, write_misses(found, drawn, asked.out)):

@@ -39,13 +39,18 @@ from comparison.runs import Run, kept
 from comparison.store import RunStore
 from comparison.workers import Clock, run_all
 
-__all__ = ["Matched", "answer", "match"]
+__all__ = ["CODE", "Matched", "answer", "match"]
 
 SAVED = 250
 SHARES = (0.35, 0.7, 1.0)  # of the largest ε
 PERTURBATION = 0.05  # see first_order_epsilon (tests: half, twice); a method may carry its own ``perturbation``
 WIDE = 0.02  # of a leading-order number: a wider error bar deserves a warning
 WIDE_FIRST = 0.1  # of max(|r₁|, 1), likewise
+CODE = (
+    *("bent_beam", "theory", "hermite_fe", "self_similar_fe", "exudyn_models"),
+    *("comparison.matching", "comparison.rows", "comparison.runs"),
+)
+"""What the numbers of a row depend on, as :func:`bent_beam.stored.write` takes it."""
 
 
 class Refused(ValueError):

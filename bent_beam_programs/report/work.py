@@ -17,7 +17,7 @@ from typing import Any
 from bent_beam import stored
 from bent_beam.cases import EXAMPLES
 from comparison.figures.work_precision import draw_work_precision
-from comparison.matching import match
+from comparison.matching import CODE, match
 from comparison.methods import methods_from_file
 from comparison.rows import First, questions
 from comparison.store import RunStore
@@ -25,10 +25,6 @@ from comparison.store import RunStore
 STORED = Path(__file__).with_name("stored")
 LISTS = EXAMPLES / "methods"
 KAPPA = 0.5
-PACKAGES = (
-    *("bent_beam", "theory", "hermite_fe", "self_similar_fe", "exudyn_models"),
-    *("comparison.matching", "comparison.rows", "comparison.runs"),
-)
 KEPT = ("label", "path", "kappa_over_nu", "alpha", "psi", "chi", "axial", "refine", "lambda0", "r0", "lambda1", "r1",
         "lift", "pull", "seconds", "steps", "reason")  # fmt: skip
 
@@ -71,7 +67,7 @@ def store_measurement(measurement: Measurement, *, jobs: int = 1) -> Path:
     made_by = f"python -m bent_beam_programs.report.work {measurement.name}"
     settings = {row.label: row.settings for row in rows}
     data = [{name: row.to_dict()[name] for name in KEPT} for row in rows]
-    return stored.write(file, what, made_by, PACKAGES, settings, {"command": measurement.command, "rows": data})
+    return stored.write(file, what, made_by, CODE, settings, {"command": measurement.command, "rows": data})
 
 
 def stored_measurements() -> list[dict[str, Any]]:

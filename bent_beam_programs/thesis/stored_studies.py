@@ -22,13 +22,11 @@ from bent_beam.errors import SimulationError
 from bent_beam.files import write_atomically
 from bent_beam.versions import today
 from bent_beam_programs.thesis.studies import STUDIES, run_study
+from comparison.matching import CODE
 from comparison.workers import run_all
 
 FILE = Path(__file__).resolve().parents[1] / "stored_studies" / "studies.json"
-PACKAGES = (
-    *("bent_beam", "theory", "hermite_fe", "self_similar_fe", "exudyn_models"),
-    *("comparison.matching", "comparison.rows", "comparison.runs", "bent_beam_programs.thesis"),
-)
+PACKAGES = (*CODE, "bent_beam_programs.thesis")
 COLOURS = 256  # of a picture: a quarter of the bytes
 BEAM = {"bending_stiffness": 1.0, "mass_per_length": 1.0}
 

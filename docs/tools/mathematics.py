@@ -20,7 +20,7 @@ CELL = re.compile(
 )
 DOLLARS = re.compile(r"\$\$(.+?)\$\$|\$([^$]+?)\$", re.DOTALL)
 TAG = re.compile(r"\\tag\{([^}]*)\}")
-SYMBOL = re.compile(r"(?<![\w/.@-])([^\W\d_][²³*]?)_([^\W\d_]{1,4}[̇̈]?)(?![\w(])")
+SYMBOL = re.compile(r"(?<![\w/.@-])([^\W\d_][²³*]?)_([^\W\d_]{1,4}?[̇̈]?)(?=GA\b|(?![\w(]))")  # κ_sGA is κ_s times GA
 CODE = re.compile(r"(<(code|pre|svg|script|style|title|a)\b.*?</\2>|<[^>]*>)", re.DOTALL)
 NAME = re.compile(r"(?<=[a-z])_(?=[a-z])")
 PLAIN_CODE = re.compile(r"<code>[^<]*</code>")
