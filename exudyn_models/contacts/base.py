@@ -154,8 +154,8 @@ class ContactRun(ABC):
         raise TypeError(f"{type(self).__name__} is not iterated")
 
     def between(self, time: float, step: float, q: Array, v: Array) -> bool:
-        """Called between segments, ``step`` the length of the next steps; returns whether connectors were switched (the
-        Jacobian must then be renewed)."""
+        """Called between segments, ``step`` the length of the next steps; returns whether connectors were switched or
+        changed (the Jacobian must then be renewed)."""
         return False
 
     def stiffness_and_damping(self) -> tuple[Array, Array]:

@@ -231,9 +231,11 @@ class SpringsRun(PenaltyRun):
             # the pressure of what lands begins at the rim with a jump, that of what leaves ends there with none
             leaves = v[at][self.nodes] < 0.0
             damping = self.wall.damping * np.where(leaves, self.wall.weights, share[self.nodes])
-            for k in np.flatnonzero(damping != self.damping):
+            changed = np.flatnonzero(damping != self.damping)
+            for k in changed:
                 self.beam.mbs.SetObjectParameter(self.connectors[k], "contactDamping", float(damping[k]))
             self.damping = damping
+            return bool(changed.size)
         return False
 
     def _law(self, q: Array, v: Array) -> tuple[Array, Flags]:
