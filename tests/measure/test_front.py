@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from histories import history_of
 
-from bent_beam import Impact
+from bent_beam import Impact, ImpactHistory
 from bent_beam.measure.force_map import force_map, spread
 from bent_beam.measure.instant import instant
 from bent_beam.measure.moments import first_front, half_contact_length, mean_reaction
-from bent_beam.measure.reduction import pull_of
+from bent_beam.measure.reduction import pull_of, wall_peaks
 from bent_beam.meshes import UniformMesh
 from hermite_fe import HermiteFE
 from theory import predict
@@ -112,3 +112,18 @@ def test_the_largest_moment_of_the_first_instants_is_not_interpolated_from_befor
     early = 0.5 * float(coarse.time[1])
     assert instant(coarse, early).peak_moment == pytest.approx(instant(fine, early).peak_moment, rel=0.03)
     assert instant(coarse, early).peak_moment > 0.9
+
+
+@pytest.mark.parametrize(("power", "least", "above"), [(1, 0.5, 0.75 * 0.005), (2, 1.0 - 1e-6, 0.005**2)])
+def test_a_step_at_the_top_of_a_force_stands_above_those_beside_it_by_h_at_a_kink_and_by_h_squared_if_smooth(
+    power, least, above
+):
+    """The force 1 − |t − t₀|ᵖ in steps of 0.005, saved at every tenth; the mean of the one at a kink is 1 − h/4, of
+    those beside it 1 − h. From saved instants a kink is told to a half only."""
+    time, top = np.linspace(0.0, 1.05, 22), 0.525
+    given = time - np.sign(time - top) * np.abs(time - top) ** (power + 1) / (power + 1)
+    peaks = dict.fromkeys(("peak_force", "peak_penetration", "peak_pressure"), ("time", np.ones(time.size)))
+    peaks["peak_force_time"] = ("time", np.full(time.size, top))
+    run = history_of(time, [0.0, 1.0], total_impulse=given)
+    run = ImpactHistory.of(run.dataset.assign(peaks).assign_attrs(steps=210))
+    assert least * above < wall_peaks(run).sharp <= above * (1.0 + 1e-6)
