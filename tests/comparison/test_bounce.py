@@ -140,7 +140,10 @@ def test_without_damping_a_seeded_band_takes_the_place_of_a_number(monkeypatch) 
     assert document["seed"] == 3 and document["restitution"] == {"value": None, "error": None, "band": stated}
     first, again, other = (COARSE.varied(impact, np.random.default_rng(seed)) for seed in (3, 3, 4))
     assert first == again != other
-    assert all(16 <= round(1.0 / one.mesh.element_length) <= 80 for one in (first, other))
+    some = [COARSE.varied(impact, np.random.default_rng(seed)) for seed in range(20)]
+    assert all(16 <= round(1.0 / one.mesh.element_length) <= 80 for one in some)
+    steps = [one.integrator.time_step / one.mesh.element_length**2 for one in some]  # Δx²√(μ/EI)
+    assert 0.5 <= min(steps) < 0.7 and 1.4 < max(steps) <= 2.0
     drawn = [bounce(impact, Scripted(), runs=8, seed=seed).runs.every for seed in (3, 3, 4)]
     first, again, other = ([run.reading["impulse"] for run in one] for one in drawn)
     assert first == again != other
