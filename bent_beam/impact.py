@@ -167,6 +167,8 @@ def _check_arrangement(impact: Impact) -> None:
             )
         if about.load and place and not getattr(impact, about.load):
             raise InputError(f"{name} has no effect without {about.load} (got {place!r})")
+        if about.load and {-half: impact.left_end, half: impact.right_end}.get(place, "free") != "free":
+            raise InputError(f"{name}: {about.load} has no effect on an end that is held (got {place!r})")
     begin, end = impact.wall_span
     if begin > end:
         raise InputError(f"wall_from must not exceed wall_to {end!r} (got {begin!r})")

@@ -5,9 +5,9 @@
 A load is a field of :class:`bent_beam.Impact`, annotated by a :class:`Load`: unit, meaning and range, of which its
 check, its key in ``[impact]`` and its line of the page of settings follow. With a term of y₀ it has a share of the
 uniform load μ∂²y₀/∂t² + EI ∂⁴y₀/∂x⁴ + N K and of the end forces of y₀; every solver asks :class:`FreeMotion` for these.
-A load without a term is a force of its own, which a solver adds. Theory to first order knows the loads that have a
-``group``. A solver names the loads and other features that it models in its ``MODELLED``, and refuses the rest; theory
-and what compares with it do so, too (:func:`unmodelled`). How to add one: docs/guide/add-load.md.
+A load that a :class:`Place` goes with is a force at a point (``Impact.forces``). Theory to first order knows the loads
+that have a ``group``. A solver names the loads and other features that it models in its ``MODELLED``, and refuses the
+rest; theory and what compares with it do so, too (:func:`unmodelled`). How to add one: docs/guide/add-load.md.
 
 A beam with held ends,
 

@@ -72,6 +72,13 @@ def snapped(nodes: Array, places: Iterable[float]) -> Array:
     return moved
 
 
+def node_at(nodes: Array, place: float) -> int:
+    """The node on which :func:`snapped` has put the ``place`` of a force, m. ``ValueError`` beyond the last."""
+    if abs(place) > nodes[-1] * (1.0 + NEAR):
+        raise InputError(f"mesh must reach as far as the force at {place!r} m (got {float(nodes[-1])!r} m)")
+    return int(np.argmin(np.abs(nodes - place)))
+
+
 def mirrored(nodes: Array) -> Array:
     """Nodes of the full beam from those of its right half: −x_n … 0 … x_n, exactly symmetric."""
     return np.concatenate([-nodes[:0:-1], nodes])

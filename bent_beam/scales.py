@@ -187,15 +187,22 @@ class Scales(Part):
         return self._load_against(self.wall_curvature)
 
     @property
+    def forces(self) -> list[tuple[float, float]]:
+        """Forces at points: place, m from the middle, and force, N towards the wall, of each load with a place."""
+        places = ((getattr(self, name), about.load) for name, about in places_of(type(self)).items() if about.load)
+        return [(place, getattr(self, load)) for place, load in places if getattr(self, load)]
+
+    @property
     def lifts(self) -> bool:
         """Whether a load lifts a contact zone off the wall."""
-        return self.zone_pressure < 0.0
+        return self.zone_pressure < 0.0 or any(force < 0.0 for _, force in self.forces)
 
     def load_within(self, half: float, power: int = 0) -> float:
         """∫xⁿp dx over |x| ≤ ``half`` from the middle, of all loads together, N mⁿ, for an even n = ``power``. An axial
         force along the tangents at the ends of the bow adds −NK to it."""
         pressure = self._load_against(self.curvature if self.tension_direction == "tangent" else 0.0)
-        return pressure * 2.0 * half ** (power + 1) / (power + 1)
+        at_points = math.fsum(force * place**power for place, force in self.forces if abs(place) <= half * (1.0 + 1e-9))
+        return pressure * 2.0 * half ** (power + 1) / (power + 1) + at_points
 
     @property
     def net_load(self) -> float:
@@ -251,8 +258,8 @@ class Scales(Part):
     def off_centre(self) -> bool:
         """Whether the impact is not symmetric about the middle: only a model of the full beam takes it."""
         begin, end = self.wall_span
-        apart = any(getattr(self, name) for name, about in places_of(type(self)).items() if about.load)
-        return bool(self.rotation or self.first_touch or self.left_end != self.right_end or begin != -end or apart)
+        apart = self.rotation or self.first_touch or any(place for place, _ in self.forces)
+        return bool(apart or self.left_end != self.right_end or begin != -end)
 
     @property
     def supported(self) -> bool:
@@ -269,7 +276,7 @@ class Scales(Part):
     def places(self) -> set[float]:
         """Where nodes stand whatever the mesh, m from the middle: the edges of the wall (without them the ends of the
         beam), and the places of forces."""
-        return {*self.wall_span, *(x for name in places_of(type(self)) if (x := getattr(self, name)) is not None)}
+        return {*self.wall_span, *(place for place, _ in self.forces)}
 
     @property
     def wall_in_part(self) -> bool:

@@ -20,7 +20,7 @@ import numpy as np
 from bent_beam import Impact
 from bent_beam.errors import InputError
 from bent_beam.impact import BEFORE_WAVES_RETURN
-from bent_beam.meshes import Mesh, checked_nodes, mirrored, snapped
+from bent_beam.meshes import Mesh, checked_nodes, mirrored, node_at, snapped
 from exudyn_models.contacts import Contact, ContactRun, Wall
 from exudyn_models.elements import Beam, Element
 from exudyn_models.elements.beam import VISCOSITY, VISCOSITY_EXPLICIT, VISCOSITY_SHEARED
@@ -121,7 +121,10 @@ def assemble(layout: Layout, chosen: Chosen, *, si: bool = False) -> tuple[Beam,
             hold(node, *held[end])
     if scaling.load:
         beam.load_uniformly(scaling.load * scaling.amplitude)
-    # a load without a term of y₀ is added here, at its node; half a beam takes half of a force in the middle
+    share = 1.0 if chosen.full_beam else 0.5  # half a beam takes half of a force in the middle
+    for place, force in scaling.impact.forces:
+        node = node_at(shape.s * scaling.length, place)
+        beam.load_node(node, across, share * force * scaling.end_time / scaling.impulse)
     for node, sign, _ in reversed(ends):
         _load_end(beam, node, sign, follows=layout.ends_follow)
     run = chosen.contact.attach(beam, _wall(beam, chosen))

@@ -57,6 +57,8 @@ class Scaling:
     front : √(2ν/κ), for choosing a resolution, never to make an answer: without a wall, y₀ = V₀t − Kx²/2 would be
         inside it up to x = √(2V₀t/K), that is λ₀ < √(2ν/κ).
     motion : y₀ − y_w over amplitude, x from first_touch (Λ); loads : the terms of it that load the ends.
+    pushed : over amplitude, the most by which forces at points change slopes and velocities until the end, those of an
+        endless beam and of a rigid one.
     shear_length : l_s/Λ, 0 without shear; rotary_inertia : J/(μΛ²); material_damping : η/T.
     axial_force : N Λ²/EI; load : uniform load per unit length over amplitude, under which y₀ is the motion without
         contact.
@@ -85,6 +87,9 @@ class Scaling:
         self.shear_length = impact.shear_length / self.length
         self.rotary_inertia = impact.shear_ratio * self.shear_length**2
         self.material_damping = impact.damping / end_time
+        half, force = impact.half_length / self.length, math.fsum(abs(force) for _, force in impact.forces)
+        force *= end_time / (self.impulse * amplitude)
+        self.pushed = force * (1.0 + self.shear_length**2 + 2.0 / half + 1.0 / half**2)
 
     def motion_of(self, kappa: float) -> FreeMotion:
         """``motion`` of a beam of curvature ``kappa``."""
@@ -243,7 +248,7 @@ class LinearLimit(Geometry):
         swings = MODE_SLOPE * scaling.length / scaling.impact.half_length if held else 0.0
         swings *= float(largest(far, 1.0, by_t=1))  # over V₀: as fast as loads could make it until the end
         slopes = (float(largest(far, 1.0, by_x=1)), float(bent(reach, 1.0, by_x=1)))  # loads bend all that is modelled
-        return STEEPEST / max(1.0, *slopes, swings)
+        return STEEPEST / max(1.0, *slopes, swings, scaling.pushed)
 
 
 @dataclass(frozen=True)

@@ -73,7 +73,8 @@ class Recorder:
         self.sums: dict[str, Any] = defaultdict(float)
         self.total = self.deepest = self.start_momentum = self.start_stored = 0.0
         driven = scaling.amplitude * scaling.motion_of(scaling.beam_kappa)(shape.s - shape.first_touch, 1.0, by_t=1)
-        self.fastest = float(max(np.abs(shape.velocity_y).max(), np.abs(driven).max()))  # at first, by loads in the end
+        fastest = max(np.abs(shape.velocity_y).max(), np.abs(driven).max())  # at first, by loads in the end
+        self.fastest = float(fastest) + scaling.amplitude * scaling.pushed
         self.pushes = 0
         self._averaged = np.zeros(contact.contact_s.size)  # contact force after the scheme's averages
         self._rows: list[tuple[Any, ...]] = []  # time, q, v, a, contact force, that along x, active; the first is old

@@ -54,10 +54,11 @@ def far_field(scaling: Scaling) -> float:
 
 def chosen_half_length(impact: Impact, end_time: float | None = None) -> float:
     """The half length, m, modelled when no mesh is given: the beam's, or less where nothing returns in time. An axial
-    force along x bends the ends of a bow: the beam is then modelled as long as it is, up to :data:`LONGEST_BENT`."""
+    force along x bends the ends of a bow, a force at a point may act anywhere: the beam is then modelled as long as it
+    is, up to :data:`LONGEST_BENT`."""
     scaling = Scaling(impact, impact.checked_end_time(end_time))
     bent = bool(impact.axial_force) and impact.tension_direction == "axis"
-    if bent and impact.half_length <= LONGEST_BENT * scaling.length:
+    if (bent or impact.forces) and impact.half_length <= LONGEST_BENT * scaling.length:
         return impact.half_length
     return min(impact.half_length, far_field(scaling) * scaling.length)
 
@@ -158,11 +159,12 @@ def _step_over_elements(mesh: Mesh, scaling: Scaling) -> float:
 
 def reachable(x: Array, scaling: Scaling, centre: int) -> Indices:
     """Nodes that may touch: half as far again as the free motion would carry the beam into the wall. All of them
-    between two walls, of a beam that rocks or has a held end, before a plate or a stop, and once waves are back.
+    between two walls, of a beam that rocks, is pushed at a point or has a held end, before a plate or a stop, and once
+    waves are back.
 
     A growing velocity (χ > 0) or an upward bent end (ψ > 0) would bring the far field to the wall: let through."""
     impact = scaling.impact
-    any_may = impact.opposite_wall is not None or impact.rotation or supports_or_plate(impact)
+    any_may = impact.opposite_wall is not None or impact.rotation or impact.forces or supports_or_plate(impact)
     if any_may or lasts_until_waves_return(impact, scaling.end_time):
         return np.arange(x.size)
     times = np.linspace(0.05, 1.0, 20)[:, None]

@@ -39,7 +39,7 @@ import numpy as np
 from bent_beam.errors import InputError
 from bent_beam.hysteresis import branches_of
 from bent_beam.impact import Impact
-from bent_beam.meshes import checked_nodes, mirrored
+from bent_beam.meshes import checked_nodes, mirrored, node_at
 from bent_beam.modes import lowest_mode
 from hermite_fe.banded import product, stiff_product
 from hermite_fe.beam import HermiteBeam
@@ -173,7 +173,9 @@ def nodal_loads(
     motion, load = impact.free_motion(0.0), np.zeros((2, beam.dofs))
     uniform = product(inertia, beam.interpolate(np.ones(s.size), np.zeros(s.size)))  # M·1
     load[0] = float(motion(0.0, by_t=2)) * uniform
-    # a load without a term of y₀ is added here, at its node; half a beam takes half of a force in the middle
+    share = 1.0 if beam.nodes[0] < 0.0 else 0.5  # half a beam takes half of a force in the middle
+    for place, force in impact.forces:
+        load[0, 2 * node_at(beam.nodes, place)] += share * force
     if follows:
         bent = motion.bending()
         shape = beam.interpolate(bent(s), bent(s, by_x=1) + impact.shear_length**2 * bent(s, by_x=3))
