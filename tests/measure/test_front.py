@@ -7,7 +7,7 @@ from histories import history_of
 from bent_beam import Impact, ImpactHistory
 from bent_beam.measure.force_map import force_map, spread
 from bent_beam.measure.instant import instant
-from bent_beam.measure.moments import first_front, half_contact_length, mean_reaction
+from bent_beam.measure.moments import first_front, half_contact_length, jump_of_rim, mean_reaction
 from bent_beam.measure.reduction import pull_of, wall_peaks
 from bent_beam.meshes import UniformMesh
 from hermite_fe import HermiteFE
@@ -38,6 +38,7 @@ def test_a_middle_that_lifts_off_does_not_shorten_the_contact_and_a_late_push_al
     impulse[:, 8] = np.maximum(time - 0.88, 0.0)  # and late at 0.8
     history = history_of(time, x, impulse=impulse, total_impulse=2.0 * impulse.sum(axis=1))
     assert [half_contact_length(history, k) for k in (0, 75, 100)] == [None, pytest.approx(0.4), pytest.approx(0.8)]
+    assert jump_of_rim(history, 75) == 0.0
     assert mean_reaction(history, 0.0) is None
     assert mean_reaction(history, history.time[100]) is None  # no tenth after the end
     assert mean_reaction(history, 1.0 / 1.1) == pytest.approx(2.0 + 2.0 * 0.12 / (0.2 / 1.1))  # the tenth is the last
