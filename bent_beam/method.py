@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses
+import math
 import os
 import threading
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -127,11 +128,21 @@ def simulated(run: Callable[..., ImpactHistory], impact: Impact, **how: Any) -> 
     return history
 
 
-LONGEST = 8.0  # T*: a beam that then still touches is not about to leave
+LONGEST, LONGEST_OF_WALL = 8.0, 100.0  # T*: a beam that then still touches is not about to leave; likewise, at most
+ON_WALL = 3.0  # half periods of the rigid beam on its wall: a load that presses makes one nearly two
+SAVED_LATE = 200  # instants a T* after LONGEST, while a soft wall pushes on
+
+
+def time_on_wall(impact: Impact) -> float:
+    """Half a period of the rigid beam on the springs of its wall, π√(m/k), s; 0 on a rigid one."""
+    begin, end = impact.wall_span
+    stiffness = (impact.wall_stiffness or math.inf) * ((end - begin) or 1.0)
+    return math.pi * math.sqrt(impact.mass_per_length * impact.length / stiffness)
 
 
 def separation_times(impact: Impact, longest: float | None = None, save: int = 2000) -> NDArray[np.float64]:
-    """Saved instants, s, of a run until separation: ``save`` to a T*, evenly, up to ``longest`` (s; 8 T*).
+    """Saved instants, s, of a run until separation: ``save`` to a T*, evenly, up to ``longest`` (s; 8 T*, and before a
+    soft wall until it has thrown the beam off, but 100 T* at most, fewer).
 
     Raises ``ValueError`` between two walls, or where supports bring the beam back: no separation is then the last.
     """
@@ -145,8 +156,11 @@ def separation_times(impact: Impact, longest: float | None = None, save: int = 2
             f"opposite_wall {impact.opposite_wall!r}: between two walls no separation is the last; simulate to an end "
             "time (bentbeam simulate), which lists the hits"
         )
-    end = LONGEST * impact.slow_time_scale if longest is None else impact.checked_end_time(longest)
-    return np.linspace(0.0, end, max(8, round(save * end / impact.slow_time_scale)) + 1)[1:]
+    unit = impact.slow_time_scale
+    end = LONGEST * unit if longest is None else impact.checked_end_time(longest)
+    even = np.linspace(0.0, end, max(8, round(save * end / unit)) + 1)[1:]
+    on_wall = min(ON_WALL * time_on_wall(impact), LONGEST_OF_WALL * unit) if longest is None else 0.0
+    return np.append(even, np.arange(end, on_wall, unit / min(save, SAVED_LATE))[1:])
 
 
 def simulate_to_separation(
@@ -155,8 +169,8 @@ def simulate_to_separation(
     """Follow ``impact`` until the beam is off the wall, for a period of a free beam's lowest mode, and without loads
     cannot come back (:mod:`bent_beam.free_flight`).
 
-    longest : s, where a beam that does not leave is given up (8 T* by default). save : saved instants a T*.
-    A method without a way of its own is run to 1.5 T*, then twice as far and so on.
+    longest : s, where a beam that does not leave is given up (by default as :func:`separation_times` has it). save :
+    saved instants a T*. A method without a way of its own is run to 1.5 T*, then twice as far and so on.
     """
     own = getattr(method, "simulate_to_separation", None)
     if own is not None:

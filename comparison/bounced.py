@@ -11,7 +11,7 @@ from typing import Any
 from bent_beam import Case, Impact, ImpactHistory
 from bent_beam.free_flight import LOWEST_PERIOD
 from bent_beam.measure.balance import Balance
-from bent_beam.measure.numbers import Band, Number
+from bent_beam.measure.numbers import MISSING, Band, Number
 from bent_beam.measure.whole_impact import SHORTEST_SEPARATION, WINDOW, WholeImpact, peak_times
 from bent_beam.method import settings_of
 from bent_beam.versions import versions
@@ -135,6 +135,8 @@ class Bounce:
                 f"the beam has {own} of its own: the outcome is irregular and does not converge, so a band is "
                 "given; state a damping for numbers"
             )
+        if MISSING in (self.numbers["peak_moment"], self.numbers.get("peak_force")):
+            found.append("a largest value is missing: it still rises when the run ends")
         turns = self.impact.supported or self.impact.wall_in_part or self.impact.off_centre
         pressed, stays = self.impact.net_load > 0.0, "it has not left the wall for good, so no restitution is given"
         if not self.left and pressed:

@@ -22,7 +22,7 @@ from bent_beam.hysteresis import converges, first_mode
 from bent_beam.measure.balance import balance_of
 from bent_beam.measure.numbers import FACTOR, Band, Number
 from bent_beam.measure.whole_impact import Hit, hits, whole_impact
-from bent_beam.method import Method, for_whole_beam, separation_times
+from bent_beam.method import ON_WALL, Method, for_whole_beam, separation_times, time_on_wall
 from comparison.bounced import Bounce
 from comparison.doubts import energy_at_end
 from comparison.questions import SEED, Progress, Question
@@ -34,6 +34,7 @@ __all__ = ["DAMPING_RATIOS", "bounce", "case_of", "follow_hits", "problem", "who
 
 Beam = Case | Impact | str | Path | Mapping[str, Any]
 TIMES = ("last_contact", "peak_moment_time")
+MAY_RISE = ("peak_moment", "peak_force")
 RUNS = 24  # of a band
 DAMPING_RATIOS = (0.0002, 0.002, 0.02)  # of the first mode: bare steel, a bar as it is held, with joints
 LONGEST, INSTANTS = 100.0, 200  # T*, of the longest run that follows hits; saved a T* of it
@@ -133,6 +134,8 @@ def whole_numbers(made: Runs) -> dict[str, Number | Band]:
     found = dict(bands_of(made, names) if made.question.band else numbers_of(made, names, known))
     if not all(run.reading["left"] for run in made.every):
         found |= {name: Number() for name in FINAL}
+        late = reading["until"] - LOWEST_PERIOD  # a force or a moment that still rises there is not the largest
+        found |= {name: Number() for name in MAY_RISE if (reading.get(f"{name}_time") or 0.0) > late}
     return found
 
 
@@ -159,7 +162,8 @@ def _may_return(made: Runs, restitution: Number) -> float:
 
 def follow_hits(impact: Impact, method: Method, count: int, *, first: ImpactHistory) -> list[Hit]:
     """The first ``count`` hits of a beam on its wall by one run, fewer where it is not back within :data:`LONGEST` T*
-    or comes to rest: a hit that is not over within :data:`RESTS` periods of the lowest mode is none.
+    or comes to rest: a hit that is not over within :data:`RESTS` periods of the lowest mode, or when its wall should
+    have thrown it off, is none.
 
     first : the run that a first hit has been read from: the first row is its own.
     Raises ``ValueError`` for what the method refuses, and between two walls.
@@ -167,11 +171,12 @@ def follow_hits(impact: Impact, method: Method, count: int, *, first: ImpactHist
     chosen, period = for_whole_beam(method, impact), LOWEST_PERIOD * impact.slow_time_scale
     fall = impact.net_load / impact.mass_per_length  # acceleration back to the wall, m/s²
     end, longest = 2.0 * period, LONGEST * impact.slow_time_scale
+    at_rest = max(RESTS * period, ON_WALL * time_on_wall(impact))
     while True:
         run = chosen.simulate(impact, end_time=end, save=separation_times(impact, end, INSTANTS))
         found = hits(run)
         over = [hit for hit in found if end - hit.end >= period]
-        rests = len(over) < len(found) and end - found[-1].begin >= RESTS * period
+        rests = len(over) < len(found) and end - found[-1].begin >= at_rest
         gone = over and fall <= 0.0 and not may_return(run)
         if len(over) >= count or rests or end >= longest or gone:
             return [*hits(first)[:1], *over[1:count]] if over else []

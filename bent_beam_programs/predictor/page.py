@@ -17,7 +17,7 @@ from bent_beam.hysteresis import FIRST_MODE, SOFT
 from bent_beam.measure.numbers import FACTOR
 from bent_beam.measure.reduction import OF_BEAM
 from bent_beam.measure.whole_impact import SHORTEST_SEPARATION
-from bent_beam.method import LONGEST
+from bent_beam.method import LONGEST, LONGEST_OF_WALL, ON_WALL
 from bent_beam_programs.predictor.coefficients import coefficients
 from comparison.bouncing import DAMPING_RATIOS, RETURNS
 from comparison.doubts import LEAST_RESTITUTION, STEEP, STRAIGHTENED, STUBBY, WIDE
@@ -41,8 +41,9 @@ BARS = {"factor": FACTOR, "least": LEAST, "light": LIGHT, "leastLight": LEAST_LI
 """Of its error bars, the damping ratios that it takes where none is stated, and on which walls it takes none."""
 RUNS = {"elements": whole_beam.SHEARED_ELEMENTS, "step": whole_beam.SHEARED_STEP, "hard": whole_beam.HARD,
         "thick": whole_beam.THICK, "damped": whole_beam.DAMPED, "point": whole_beam.ONE_POINT,
-        "pressed": whole_beam.PRESSED, "largest": whole_beam.LARGEST_ELASTIC, "longest": LONGEST, "mode": FIRST_MODE,
-        "separation": SHORTEST_SEPARATION, "unresolved": OF_BEAM}  # fmt: skip
+        "pressed": whole_beam.PRESSED, "largest": whole_beam.LARGEST_ELASTIC, "longest": LONGEST, "onWall": ON_WALL,
+        "longestOfWall": LONGEST_OF_WALL, "mode": FIRST_MODE, "separation": SHORTEST_SEPARATION,
+        "unresolved": OF_BEAM}  # fmt: skip
 """Of its runs: elements and steps, what asks for finer ones or another scheme, and what is looked at."""
 CONSTANTS = {
     validity: ("TOLERANCE", "DISTANCE", "SWING", "FLAT", "SMALL_CHANGE", "FLATTEST_SOLVED", "SLOPE_LIMIT"),

@@ -253,6 +253,17 @@ def test_a_straight_bar_on_a_soft_wall_leaves_as_a_mass_on_a_spring_does(velocit
         assert abs(number.known - exact) <= number.bar < 0.01, (name, exact, number)
 
 
+def test_a_softer_wall_pushes_for_half_a_period_however_long_and_a_force_that_still_rises_is_no_largest() -> None:
+    """π√(m/k) and V₀√(km) of a straight bar; the second wall would not throw it off in 100 T*."""
+    bar = Impact(1.0, 1.0, 2.0, 0.0, 1.0, damping=1e-2)
+    soft, softer = (bounce(bar.replace(wall_stiffness=k), COARSE) for k in (0.05, 1e-4))
+    assert soft.numbers["last_contact"].known == pytest.approx(math.pi / math.sqrt(0.05), rel=1e-3)
+    assert soft.numbers["peak_force"].known == pytest.approx(2.0 * math.sqrt(0.05), rel=1e-4)
+    assert len(follow_hits(soft.impact, COARSE, 2, first=soft.history)) == 1
+    assert not softer.numbers["peak_force"].measured and not softer.numbers["restitution"].measured
+    assert any("still rises" in warning for warning in softer.warnings)
+
+
 def test_bounce_with_a_store_that_keeps_nothing_runs_as_often_as_without_one(monkeypatch: pytest.MonkeyPatch) -> None:
     made, simulate = [], HermiteFE.simulate_to_separation
     monkeypatch.setattr(HermiteFE, "simulate_to_separation", lambda *a, **how: made.append(1) or simulate(*a, **how))

@@ -7,7 +7,7 @@ const Solver = (() => {
   const { abs, max, min, sqrt } = Math, { PAD, element, assembled, row } = Elements;
   const { separation: SEPARATION, unresolved: UNRESOLVED } = RUNS; // T*: the shortest that counts; the first touch bends the mesh till then
   const PERIOD = 2 * Math.PI / (RUNS.mode / 2) ** 2; // of the lowest mode
-  const LONGEST = RUNS.longest, EARLY = 0.05; // T*; until when the impulse of each step is kept, T*
+  const EARLY = 0.05; // T*: until when the impulse of each step is kept
   const spacing = (t) => max(1 / 2000, min(1 / 200, t / 60)); // of the frames, T*
 
   /** Matrices, loads and the state at the first touch. */
@@ -75,11 +75,14 @@ const Solver = (() => {
       .map(([t, g]) => [t, g / (t - last)]);
   }
 
+  /** T* after which a beam that still touches is given up: a soft wall takes half a period of the rigid beam at least. */
+  const given = ({ wall }) => max(RUNS.longest, wall ? min(RUNS.onWall * Math.PI / sqrt(wall.k), RUNS.longestOfWall) : 0);
+
   /** The impact of p = {kappa, eta, shear, turning, load, tension, pull, before, wall} until the beam has left, with
       `elements` a half beam and `steps` a T*. load: μa₀; tension: N; pull: what it makes of the bow at the ends;
       before: moment of the bow; wall: {k, c} or null. Numbers are those of the first hit; moment and force the largest
       of the whole motion. Throws Error where contact does not settle. */
-  function simulate(p, { elements, steps, atPosition = false, rebound = 0, longest = LONGEST }) {
+  function simulate(p, { elements, steps, atPosition = false, rebound = 0, longest = given(p) }) {
     const m = model(p, elements, 1 / steps), { n, l, h, size, q, v, x, share, impulse } = m;
     const step = p.wall ? Contact.elastic({ ...m, wall: p.wall }) : Contact.rigid({ ...m, atPosition, rebound });
     const moment = new Float64Array(n), since = new Float64Array(n), scratch = new Float64Array(size);
