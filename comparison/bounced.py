@@ -15,7 +15,7 @@ from bent_beam.measure.numbers import MISSING, Band, Number
 from bent_beam.measure.whole_impact import SHORTEST_SEPARATION, WINDOW, WholeImpact, peak_times
 from bent_beam.method import settings_of
 from bent_beam.versions import versions
-from comparison.doubts import doubts, energy_residual, numerical_loss, wide_bars
+from comparison.doubts import doubts, energy_residual, numerical_loss, told_by
 from comparison.readable import write_answer
 from comparison.runs import Runs
 from comparison.texts import bounce_text
@@ -156,7 +156,7 @@ class Bounce:
                 f"{back} to the wall; these numbers are those of the first hit, later ones may be larger: "
                 "bentbeam bounce --hits 3 lists three"
             )
-        return [*found, *wide_bars(self.numbers), *self.runs.warnings, *others]
+        return [*found, *told_by(self.in_si, self.case.section), *self.runs.warnings, *others]
 
     def to_dict(self) -> dict[str, Any]:
         """The contract of ``bentbeam bounce --json``."""

@@ -109,6 +109,22 @@ def loss_warnings(energy: Energies) -> list[str]:
     return [f"steps, mesh and grid viscosity took {100.0 * share:.2g} % of the initial energy"]
 
 
+def yields(numbers: Mapping[str, Any], section: Section | None) -> bool:
+    """Whether the largest stress among ``numbers``, SI, is beyond the section's yield stress; a bar may reach it."""
+    stress, limit = numbers.get("peak_stress", MISSING), getattr(section, "yield_stress", None)
+    found = getattr(stress, "mean", stress.value)  # of a band
+    return limit is not None and found is not None and found + (stress.bar or 0.0) > limit
+
+
+def told_by(numbers: Mapping[str, Any], section: Section | None) -> list[str]:
+    """What ``numbers``, SI, say themselves: which bars are wide, and whether the beam yields."""
+    if section is None or not yields(numbers, section):
+        return wide_bars(numbers)
+    limit = 1e-6 * (section.yield_stress or 0.0)
+    said = f"the largest stress is beyond the yield stress of {limit:.4g} MPa: all numbers are those of an elastic beam"
+    return [*wide_bars(numbers), said]
+
+
 def wide_bars(numbers: Mapping[str, Any]) -> list[str]:
     """A warning of the numbers whose error bars are wide; a band is none, nor is a half length of 0, of one point."""
     wide = []

@@ -7,7 +7,7 @@ and ``bounce`` ask (:mod:`comparison.questions`).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from functools import partial
 from itertools import groupby
@@ -28,10 +28,10 @@ from bent_beam.measure.whole_impact import peak_times
 from bent_beam.tables import in_keys
 from comparison.bounced import Bounce, documents, with_stress
 from comparison.bouncing import bounce
-from comparison.doubts import doubts, energy_at_end, wide_bars
+from comparison.doubts import doubts, energy_at_end, told_by, yields
 from comparison.questions import Progress, Question
 from comparison.readable import milliseconds, write_answer
-from comparison.runs import Runs, numbers_of, runs_of, unseen_of_moment
+from comparison.runs import UNDAMPED, Runs, numbers_of, runs_of, unseen_of_moment
 from comparison.store import RunStore
 from comparison.texts import prediction_text
 from theory import Prediction, predict
@@ -143,7 +143,9 @@ class PredictedCase:
         for row in rows:
             if force < min(row["time"], holds):  # beyond ``holds`` the whole row is told to be invalid
                 row["reaction"] = None
+        told: list[Mapping[str, Any]] = [*(self.simulated or ()), *([] if whole is None else [whole.in_si])]
         return document | {
+            "yields": document["yields"] if not told else any(yields(one, self.case.section) for one in told),
             "force_until": force,
             "times": rows if self.simulated is None else rows[: len(self.simulated)],
             "model": self.case.impact.model,
@@ -217,11 +219,13 @@ def predict_case(
     simulated = [numbers_at(found.get(time), case) for time in times]
     # what runs say, but for their ends: the theory beside them says how long those do not matter
     said_by = {time: {line for line in runs.warnings if REFLECTED not in line} for time, runs in found.items()}
-    by_all = set.intersection(*said_by.values()) if said_by else set()
+    by_all = set.intersection(*said_by.values()) - {UNDAMPED} if said_by else set()  # the whole impact has some
     warnings += by_all
     warnings += [f"run to {milliseconds(time)}: {line}" for time, lines in said_by.items() for line in lines - by_all]
     warnings += [
-        f"at {milliseconds(time)}: {line}" for time, numbers in zip(times, simulated) for line in wide_bars(numbers)
+        f"at {milliseconds(time)}: {line}"
+        for time, numbers in zip(times, simulated)
+        for line in told_by(numbers, case.section)
     ]
     if last > latest:
         warnings.append(f"times beyond {latest:.4g} s ({LATEST:g} T*) are not simulated here: bentbeam simulate")

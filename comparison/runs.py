@@ -26,6 +26,7 @@ LEAST = 1e-4  # of a number: its least bar; beams drawn at random were off by as
 LIGHT = 3e-4  # η/T* below which a beam has hardly any damping …
 LEAST_LIGHT = 1e-3  # … and its numbers after :data:`SHORT` this least bar, for the same reason
 CHATTER = 0.01  # of the largest moment: what single nodes add to it on a zone of hardly any damping
+UNDAMPED = "no damping is stated: these numbers are those of a beam without any; state [beam] damping_ratio"
 Reading = Callable[[ImpactHistory], dict[str, Any]]
 """A function of a module, or a ``partial`` of one with JSON-ready positional arguments. What it returns is JSON-ready
 and holds the ``energy`` at the end and the ``balance``."""
@@ -73,8 +74,10 @@ class Runs:
     @property
     def warnings(self) -> list[str]:
         """What the run says, what steps and mesh took, what is out of balance, which companions are missing."""
-        energy = self.run.reading["energy"]
-        return [*self.run.warnings, *loss_warnings(energy), *self.balance.warnings, *self.lost]
+        question, energy = self.question, self.run.reading["energy"]
+        bare = not (question.damping_stated or question.impact.damping or question.impact.hysteretic_loss)
+        unstated = [UNDAMPED] if bare and question.late else []
+        return [*unstated, *self.run.warnings, *loss_warnings(energy), *self.balance.warnings, *self.lost]
 
     @property
     def balance(self) -> Balance:

@@ -28,7 +28,7 @@ from bent_beam.settings import settings
 from bent_beam.tables import in_keys
 from comparison.bounced import documents
 from comparison.bouncing import bounce
-from comparison.doubts import doubts, wide_bars
+from comparison.doubts import doubts, told_by
 from comparison.predicting import numbers_at, runs_to
 from comparison.readable import flat, milliseconds, readable, text_table, unit_for
 from comparison.rows import failures, reason_of
@@ -152,7 +152,7 @@ def _found(case: Case, path: str, store: RunStore) -> dict[str, Any]:
     if never_leaves(impact):
         runs = runs_to(case, method, (case.end_time,), store)
         numbers = numbers_at(runs, case)
-        warnings = [*doubts(impact, case.section), *wide_bars(numbers), *runs.warnings]
+        warnings = [*doubts(impact, case.section), *told_by(numbers, case.section), *runs.warnings]
         return {"numbers": numbers, "until": case.end_time, "warnings": warnings, "kept": runs.kept}
     found = bounce(case, method, store=store)
     return {"numbers": found.in_si, "warnings": found.warnings, "kept": found.kept}
