@@ -29,6 +29,7 @@ import exudyn.itemInterface as items
 import numpy as np
 
 from bent_beam import Impact
+from bent_beam.checks import MOST_INSTANTS, between, whole
 from bent_beam.errors import InputError
 from bent_beam.meshes import NodesMesh, ScaleFreeMesh
 from exudyn_models.assembly import Chosen, assemble, lay_out, settings_of, stable_step
@@ -83,6 +84,7 @@ def build(
     Raises ``ValueError`` as :func:`exudyn_models.simulate`, and for what only its stepping can do.
     """
     end, method = impact.checked_end_time(end_time), ExudynModel(**parts)
+    between("save", whole("save", save, 1), 1, MOST_INSTANTS)
     if reason := method.refuses(impact) or _refused(method):
         raise InputError(reason)
     chosen = _chosen(method, impact, end)
@@ -114,6 +116,12 @@ def _refused(method: ExudynModel) -> str | None:
         return "exudyn.contact.kind rigid is switched between steps: use simulate, or take penalty to build"
     if isinstance(contact, Penalty) and (contact.hold or contact.hold_start):
         return "exudyn.contact.hold and hold_start are switched between steps: use simulate, or leave them out to build"
+    repeated, must = (getattr(method.solver, f"contact_{name}", None) for name in ("iterations", "must_settle"))
+    if must is not None or (repeated or 0) > SETTLED:
+        return (
+            f"exudyn.solver: build repeats a step {SETTLED} times at most and judges none: leave contact_must_settle "
+            f"and larger contact_iterations out (got {method.solver!r})"
+        )
     return None
 
 
@@ -162,7 +170,10 @@ def _sensors(beam: Beam, contact: ContactRun, copies: float) -> dict[str, int]:
 
     def state() -> tuple[Array, Array]:
         data = mbs.systemData
-        return data.GetODE2Coordinates() / lengths, data.GetODE2Coordinates_t() * units.time / lengths
+        return (
+            data.GetODE2Coordinates()[: beam.size] / lengths,
+            data.GetODE2Coordinates_t()[: beam.size] * units.time / lengths,
+        )
 
     at_first = float(state()[1] @ beam.momentum)
 

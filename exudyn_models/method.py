@@ -36,6 +36,7 @@ from exudyn_models.stepping import Stepping, Until, saved_times
 from exudyn_models.warnings_of_run import warnings_of_run
 
 FIRST_ORDER_HOLD = 16  # elements behind the front; it ends when waves may be back, and every run states it
+MOST_STRAIN = 1e-3  # under an axial force, of a given axial stiffness: lengths are wrong by as much
 FIRST_ORDER_STEPS = 4.0  # so many times shorter steps: λ₁ of (−1, −1, 0) at κ/ν = 0.8 is 5 % off without, 0.4 % with
 
 
@@ -145,7 +146,9 @@ class ExudynModel(Part):
                     yield f"{other} is not modelled together with {name} (got {given!r}); the Hermite path follows both"
         element = self.element or chosen_element(impact)
         of_contact = contact.refuses(impact, element, self.integrator or contact.integrator)
-        yield from filter(None, (element.refuses(impact), of_contact))
+        yield from filter(
+            None, (element.refuses(impact), of_contact, None if true else _unfit_stiffness(element, impact))
+        )
         yield from self._unused_of_solver(contact)
         if true and impact.off_centre:
             yield "exudyn.geometry.kind true knows the symmetric bow only: with rotation or first_touch take linear"
@@ -194,6 +197,15 @@ class ExudynModel(Part):
 
         parts = made_of(self.for_whole_beam(impact))
         return simulate(impact, end_time=float(times[-1]), save=times, progress=progress, until=until, **parts)
+
+
+def _unfit_stiffness(element: Element, impact: Impact) -> str | None:
+    """Why the linear limit cannot take a given axial stiffness: it matters under an axial force, and must bear that."""
+    stiffness, least = element.axial_stiffness, abs(impact.axial_force) / MOST_STRAIN
+    if stiffness is None or 0.0 < least <= stiffness:
+        return None
+    said = f"must be {least:g} N at least, to bear axial_force" if least else "has no effect without axial_force"
+    return f"exudyn.element.axial_stiffness {said}, in the linear limit (got {stiffness!r})"
 
 
 def held_for(contact: Contact | None, impact: Impact) -> Contact:

@@ -125,7 +125,7 @@ class PenaltyRun(ContactRun):
         return np.where(active, self.signs * force, 0.0), active
 
     def plain_forces(self, q: Array, v: Array) -> Array:
-        return np.where(self.depth(q) >= 0.0, self.signs * self._law(q, v)[0], 0.0)
+        return np.where(self.depth(q) > 0.0, self.signs * self._law(q, v)[0], 0.0)
 
     def stored_energy(self, q: Array) -> float:
         depth = self.depth(q)

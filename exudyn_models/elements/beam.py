@@ -48,6 +48,7 @@ class Beam(ABC):
     horizontal_coordinate = 0
     vertical_coordinate = 1
     rotation_coordinate: int
+    stiffer: Array | float = 0.0  # of an element across the beam, (elements,), beyond that of bending
 
     def __init__(
         self, mbs: Any, shape: Shape, scaling: Scaling, axial_stiffness: float, grid_viscosity: Array, units: Units
@@ -74,7 +75,10 @@ class Beam(ABC):
         shape, length = self.shape, self.units.length
         speed = length * (1.0 / self.units.time)
         x = (1.0 + self.stretch) * shape.x[i] - shape.s[i]
-        return [x * length, shape.y[i] * length], [shape.velocity_x[i] * speed, shape.velocity_y[i] * speed]
+        return [x * length, (1.0 + self.stretch) * shape.y[i] * length], [
+            shape.velocity_x[i] * speed,
+            shape.velocity_y[i] * speed,
+        ]
 
     @abstractmethod
     def node(self, i: int) -> Any:
@@ -91,7 +95,7 @@ class Beam(ABC):
         At most ``MOST_ROUNDED`` times ``velocity``, the amplitude of the model: where it is larger, Newton's method
         stops, and nothing is hidden.
         """
-        stiffness = 12.0 * self.lengths / element_times(self.lengths, self.scaling.shear_length) ** 2
+        stiffness = 12.0 * self.lengths / element_times(self.lengths, self.scaling.shear_length) ** 2 + self.stiffer
         deflections = np.abs(self.shape.y)
         forces = stiffness * (np.maximum(deflections[:-1], deflections[1:]) + self.viscosity * velocity)
         return min(float(ROUNDED * np.finfo(float).eps * forces.max()), MOST_ROUNDED * velocity)

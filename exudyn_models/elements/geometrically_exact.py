@@ -29,6 +29,7 @@ class _Exact(Beam):
 
     def __init__(self, mbs: Any, shape: Shape, scaling: Scaling, *more: Any) -> None:
         self.shear_stiffness, self.rotary_inertia = RIGID_SHEAR / shape.lengths**2, LITTLE_ROTARY * shape.lengths**2
+        self.stiffer = 0.0 if scaling.shear_length else self.shear_stiffness / shape.lengths
         if scaling.shear_length:
             self.shear_stiffness = np.full_like(shape.lengths, scaling.shear_length**-2)
             self.rotary_inertia = np.maximum(scaling.rotary_inertia, LEAST_ROTARY * shape.lengths**2)

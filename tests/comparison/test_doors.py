@@ -22,6 +22,7 @@ from comparison import bounce, match, predict, sweep
 from comparison.bounced import scales
 from comparison.compare import compare_histories, rerun_history
 from comparison.doors import Swept
+from comparison.predicting import predict_case
 from comparison.readable import unit_for
 from comparison.simulating import simulate_case
 from comparison.sweeping import Row
@@ -53,6 +54,23 @@ def drawn(count: int, *laid_over: str) -> Iterator[Case]:
 
 def same(one: dict[str, Any], other: dict[str, Any]) -> bool:
     return (one["value"], one["error"]) == (other["value"], other["error"])
+
+
+def test_every_door_says_that_the_beam_yields_and_that_a_late_number_is_of_a_beam_whose_damping_nobody_stated() -> None:
+    coarse = ["hermite.mesh.kind=uniform", "hermite.mesh.element_length=0.15"]
+    stated, weak = (load_case(CASES / "tube.toml", [*coarse, f"section.yield_stress={one}"]) for one in (240e6, 2e7))
+    bare = replace(weak, impact=weak.impact.replace(damping=0.0), damping_stated=False)
+    time = 0.5 * weak.impact.slow_time_scale
+    for case, yields, none in ((stated, False, False), (weak, True, False), (bare, True, True)):
+        known = predict_case(case, [time], whole=False).to_dict()
+        assert known["yields"] is yields
+        late, whole = (simulate_case(case, "hermite", until=until).to_dict() for until in (time, None))
+        told = [known["warnings"], late["warnings"], *([] if none else [whole["warnings"], bounce(case).warnings])]
+        for lines in told:
+            assert any("beyond the yield stress of 20 MPa" in line for line in lines) is yields
+            assert any("those of a beam without any" in line for line in lines) is none
+        assert any("at three damping ratios" in line for line in whole["warnings"]) is none
+        assert none or any("bring the beam back" in line for line in whole["warnings"])
 
 
 def check(case: Case, share: float) -> None:

@@ -4,6 +4,7 @@ import dataclasses
 import itertools
 import re
 
+import exudyn.itemInterface as items
 import numpy as np
 import pytest
 from exudyn.utilities import LoadSolutionFile
@@ -150,6 +151,24 @@ def test_one_setting_is_swapped_without_its_kind_and_the_rest_stays_chosen():
     for end in (1e-3, 0.1):  # steps that grow, and steps that are constant
         chosen, open_ones = (method.chosen(impact, end).integrator for method in (made, ExudynModel()))
         assert chosen == dataclasses.replace(open_ones, spectral_radius=0.9)
+
+
+def test_a_zone_of_exact_elements_is_solved_and_no_force_acts_at_the_first_touch():
+    _, read = solved(Impact.dimensionless(0.5), element=GeometricallyExact())
+    assert read["impulse"][-1, 0] == pytest.approx(impulse_of_theory(0.5), rel=2e-3) and read["force"][0, 0] == 0.0
+
+
+def test_sensors_are_those_of_the_beam_where_a_user_adds_a_mass_on_a_spring():
+    model = exudyn_models.build(SHORT, mesh=COARSE)
+    mass = model.mbs.AddNode(items.NodePoint2D())
+    model.mbs.AddObject(items.MassPoint2D(mass=1e-3, nodeNumber=mass))
+    ends = [(model.nodes[0], 1), (mass, 1)]
+    marks = [model.mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=n, coordinate=k)) for n, k in ends]
+    model.mbs.AddObject(items.ObjectConnectorCoordinateSpringDamper(markerNumbers=marks, stiffness=1e-3))
+    model.mbs.Assemble()
+    model.mbs.SolveDynamic(model.settings)
+    impulse = model.mbs.GetSensorStoredData(model.sensors["impulse"])[-1, 1]
+    assert impulse == pytest.approx(impulse_of_theory(0.5), rel=0.02)
 
 
 def test_a_solution_file_is_there_for_exudyns_viewer(tmp_path):

@@ -239,6 +239,22 @@ def test_the_budget_of_a_whole_impact_closes_under_axial_force(kappa_over_nu, fo
         assert history.array(name)[-1] == pytest.approx(other.array(name)[-1], rel=0.02, abs=1e-3)
 
 
+@pytest.mark.parametrize("load", ["curvature_rate", "fourth_derivative"])
+def test_the_budget_of_a_whole_impact_on_springs_closes_under_loads_that_bend(load):
+    impact = Impact.whole_beam(2.0, relative_damping=1e-2).replace(wall_stiffness=1e3, **{load: -1.0})
+    history = ExudynModel(mesh=UniformMesh(1 / 25)).for_whole_beam(impact).simulate(impact, end_time=0.3)
+    budget = history.energy_budget()
+    assert abs(budget["defect"]) < 1e-3 * budget["initial_energy"]
+
+
+@pytest.mark.parametrize("element", [ANCFCable, GeometricallyExact])
+def test_a_beam_arrives_unbent_under_an_axial_force(element):
+    """However stretched: y is, as x."""
+    pulled = Impact.dimensionless(0.5, epsilon_axial=5.0)
+    history = exudyn_models.simulate(pulled, element=element(axial_stiffness=5e3), end_time=0.01, save=5)
+    assert history.array("strain_energy")[0] < 1e-12 and history.array("largest_moment")[0] < 1e-9
+
+
 @pytest.mark.parametrize(("end", "refine"), [(0.005, 0.25), pytest.param(0.1, 1.0, marks=verify)])
 def test_a_very_small_axial_force_changes_nothing(end, refine):
     """Its stiff bar has a round-off far above the residual of an unpulled beam."""

@@ -83,10 +83,15 @@ REFUSED = [
     (lambda: asked(WHOLE.replace(hysteretic_loss=0.1, loss_frequency=1.0)), "hysteretic_loss .*got 0.1.* Hermite"),
     (lambda: asked(SHEARED, element=ANCFCable()), "ancf_cable" + WAY),
     (lambda: asked(SHEARED, contact=SegmentFriction()), "cables" + WAY),
+    (lambda: asked(SHORT, element=ANCFCable(axial_stiffness=1e5)), "axial_stiffness has no effect without axial_force"),
+    (lambda: asked(SHORT.replace(axial_force=5.0), element=ANCFCable(axial_stiffness=10.0)), "must be 5000 N at least"),
     # what only simulate can do
     *((lambda contact=contact: exudyn_models.build(SHORT, mesh=MESH, contact=contact), "use simulate")
       for contact in (Rigid(), Penalty(hold=4), Penalty(hold_start=0.01))),
     (lambda: exudyn_models.build(SHORT, integrator=GeneralizedAlpha(relative_step=0.01)), "steps of build are equal"),
+    *((lambda solver=solver: exudyn_models.build(SHORT, mesh=MESH, solver=solver), "build repeats a step 5 times")
+      for solver in (NewtonSolver(contact_iterations=9), NewtonSolver(contact_must_settle=False))),
+    (lambda: exudyn_models.build(SHORT, mesh=MESH, save=0), "save must be"),
 ]  # fmt: skip
 
 
