@@ -7,6 +7,8 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
+
 from bent_beam.files import LOSSES
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
@@ -29,10 +31,10 @@ MAY_BE_WIDE |= {"half_contact_length": "half contact length"}
 
 def doubts(impact: Impact, section: Section | None) -> list[str]:
     """Sentences on steep bows, straight beams, bows that an axial force straightens or bends, and what a stress
-    includes. In units EI = μ = V₀ = 1 the amplitude is free: no bow is steep."""
+    includes."""
     found = []
     slope = impact.relative_curvature * impact.half_length
-    if slope >= STEEP and not impact.bending_stiffness == impact.mass_per_length == impact.velocity == 1.0:
+    if slope >= STEEP and not _has_no_size(impact):
         found.append(
             f"the bow's own slope at its ends is {slope:.2g}: theory and simulation are for small slopes (at 0.5 the "
             "force is about 10 % larger)"
@@ -67,6 +69,25 @@ def doubts(impact: Impact, section: Section | None) -> list[str]:
     if force and section is not None:
         found.append(f"stresses include |N|/A = {1e-6 * section.stress(0.0, force):.4g} MPa of the axial force")
     return found
+
+
+def steep(history: ImpactHistory) -> list[str]:
+    """A sentence on slopes of the motion beyond the theory of small ones; they may grow where an axial force presses a
+    beam that turns."""
+    name = "angle" if "angle" in history else "slope"
+    if name not in history or _has_no_size(history.impact):
+        return []
+    slopes = np.abs(history.array(name))
+    largest = float(slopes.max(initial=0.0))
+    if largest < STEEP or largest < 1.1 * float(slopes[0].max(initial=0.0)):  # of the bow itself
+        return []
+    when = float(history.time[int(np.argmax(slopes.max(axis=1) >= STEEP))])
+    return [f"the beam's slope reaches {largest:.2g}, {STEEP:g} from {when:.3g} s on: simulation is for small slopes"]
+
+
+def _has_no_size(impact: Impact) -> bool:
+    """In units EI = μ = V₀ = 1 the amplitude is free."""
+    return impact.bending_stiffness == impact.mass_per_length == impact.velocity == 1.0
 
 
 def comparable(impact: Impact) -> bool:

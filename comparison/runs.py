@@ -17,7 +17,7 @@ from bent_beam.hysteresis import converges
 from bent_beam.measure.balance import Balance
 from bent_beam.measure.numbers import FACTOR, Band, Number, number_of
 from bent_beam.method import Method, settings_of
-from comparison.doubts import loss_warnings
+from comparison.doubts import loss_warnings, steep
 from comparison.questions import SHORT, Progress, Question
 from comparison.store import RunStore, code_of, source_of
 from comparison.workers import run_all
@@ -44,7 +44,7 @@ class Run:
 
     @classmethod
     def of(cls, history: ImpactHistory, read: Reading) -> Run:
-        return cls(read(history), history.warnings, history.seconds, history.steps)
+        return cls(read(history), [*history.warnings, *steep(history)], history.seconds, history.steps)
 
 
 @dataclass(frozen=True)

@@ -74,7 +74,9 @@ def for_whole_beam(method: M, impact: Impact) -> M:
     if contact is None and wall is None:
         softer = slower != 1.0 and not shears
         contact = ON_PLATE if plate else _softer(UNHELD, slower**-2) if softer else UNHELD
-    solver = filled(method.solver, NewtonSolver(relative_tolerance=RELATIVE))
+    solver = method.solver
+    if not integrator.explicit:
+        solver = filled(solver, NewtonSolver(relative_tolerance=RELATIVE))
     if contact is not None and getattr(integrator, "flight_step", None):
         solver = filled(solver, NewtonSolver(absolute_tolerance=ABSOLUTE))
     return dataclasses.replace(

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bent_beam.history import ImpactHistory
+from bent_beam.history import Array, ImpactHistory
 
 CHUNK = 256  # saved instants at once
 OF_RUN, OF_BEAM = 0.02, 0.002  # see _first_resolved
@@ -84,6 +84,23 @@ def _sharpness(history: ImpactHistory, when: float) -> float:
         return 0.0
     order = min(max(math.log2(max(far / near, 1.0)), 1.0), 2.0)
     return near * min(float(history.time[-1]) / max(history.steps, 1) / float(spans[2]), 1.0) ** order
+
+
+def rise_between(values: Array, k: int) -> float:
+    """How much the parabola through a largest value and its neighbours rises above it."""
+    if not 0 < k < values.size - 1:
+        return 0.0
+    before, largest, after = (float(value) for value in values[k - 1 : k + 2])
+    bent = 2.0 * largest - before - after
+    return (after - before) ** 2 / (8.0 * bent) if bent > 0.0 else 0.0
+
+
+def begins_between(time: Array, total: Array, k: int, window: float) -> float:
+    """Half of what a window, s, that begins between saved instants may gain beyond the largest of those that begin at
+    one, at ``k``: each lies within one that is longer by a saved interval."""
+    step = float(np.diff(time[k : k + 2]).max(initial=0.0))
+    largest, longer = (float(np.max(np.interp(time + one, time, total) - total)) for one in (window, window + step))
+    return 0.5 * (longer - largest)
 
 
 def hold_of(history: ImpactHistory) -> dict[str, float | None] | None:

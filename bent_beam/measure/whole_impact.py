@@ -27,7 +27,14 @@ from bent_beam.free_flight import LOWEST_PERIOD, acting, has_left, may_return
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.measure.moments import element_at
-from bent_beam.measure.reduction import WALLS, moment_left_out, peak_moment, wall_peaks
+from bent_beam.measure.reduction import (
+    WALLS,
+    begins_between,
+    moment_left_out,
+    peak_moment,
+    rise_between,
+    wall_peaks,
+)
 
 Array = NDArray[np.float64]
 
@@ -57,7 +64,8 @@ class WholeImpact:
     peak_force : on the zone of a wall that gives way, over μℓV₀/T*, with its time and its mean |x|/ℓ; ``None`` of a
         rigid one; peak_force_sharp : by how much it stands above the mean of the steps beside its own. push : the
         largest impulse within :data:`WINDOW` T*, over μℓV₀; push_time : when the wall begins to push within that;
-        push_rise : its part that lies between saved instants, where a wall gives way and the force is smooth.
+        push_rise : its part that lies between saved instants, and is no surer; of a rigid wall, whose pushes are short,
+        half of what may lie there.
     supplied : the initial energy and the work of the loads until then, J; supplied_rate : by how much of it that grows
         in T* then. element : length over ℓ of the element at the largest moment: its place is no surer.
     energy_defect : what the independently computed terms of the budget leave, of the initial energy; energy_gain : the
@@ -134,7 +142,9 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
     work = initial + history.energy("work_of_loads")
     gained = np.interp(time + WINDOW * unit, time, total) - total
     k = int(np.argmax(gained))
-    rise = _rise_between(gained, k) if impact.wall_stiffness is not None else 0.0
+    rise = (
+        rise_between(gained, k) if impact.wall_stiffness is not None else begins_between(time, total, k, WINDOW * unit)
+    )
     begin = k + max(int(np.argmax(total[k:] > total[k])) - 1, 0)  # the last instant before the wall pushes
     before = _velocity(history, hit[0][0], float(time[hit[0][0]]))
     arrives = abs(before) > 1e-6 * speed  # a beam that only turns has no restitution
@@ -201,15 +211,6 @@ def _largest_force(history: ImpactHistory, until: float) -> dict[str, Any]:
         "peak_force_place": None if found.place is None else found.place / impact.half_length,
         "peak_force_sharp": found.sharp / unit,
     }
-
-
-def _rise_between(values: Array, k: int) -> float:
-    """How much the parabola through a largest value and its neighbours rises above it."""
-    if not 0 < k < values.size - 1:
-        return 0.0
-    before, largest, after = (float(value) for value in values[k - 1 : k + 2])
-    bent = 2.0 * largest - before - after
-    return (after - before) ** 2 / (8.0 * bent) if bent > 0.0 else 0.0
 
 
 def peak_times(found: WholeImpact, impact: Impact) -> dict[str, Any]:
