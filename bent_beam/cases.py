@@ -63,7 +63,11 @@ class Case:
         if self.mesh is None:
             return made
         known = getattr(made, "PARTS", {}).get("mesh", {})
-        if "mesh" not in self.tables.get(path, {}) and type(self.mesh) in known.values():
+        if getattr(made, "mesh", None) is not None:
+            raise InputError(
+                f"[mesh] and [{path}.mesh] say the same: give one of them (got {made.mesh!r} in the latter)"
+            )
+        if type(self.mesh) in known.values():
             return dataclasses.replace(made, mesh=self.mesh)
         raise InputError(
             f"mesh.kind: {path} does not take this mesh (known: {', '.join(sorted(known)) or 'none'}); "

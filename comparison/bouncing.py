@@ -45,8 +45,8 @@ LARGEST_KAPPA = 100.0  # beyond, and long before, the beam touches in one point:
 
 def problem(kappa_over_nu: float, damping: float) -> Impact:
     """The beam in units of its half length; κ/ν = ∞ is calculated as a point contact."""
-    kappa = kappa_over_nu if kappa_over_nu == math.inf else finite("kappa_over_nu", kappa_over_nu)
-    return Impact.whole_beam(min(kappa, LARGEST_KAPPA), relative_damping=damping)
+    kappa = LARGEST_KAPPA if kappa_over_nu == math.inf else finite("kappa_over_nu", kappa_over_nu)
+    return Impact.whole_beam(kappa, relative_damping=damping)
 
 
 def whole_reading(history: ImpactHistory) -> dict[str, Any]:

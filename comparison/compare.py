@@ -140,7 +140,8 @@ def rerun_history(old: ImpactHistory, out: Path | None = None, progress: Progres
     (relative, per variable, times and places included) and versions that differ. Keeps the new history in ``out``."""
     new = _again(old, progress).until(float(old.time[-1]))  # a run to a time goes on beyond it
     if out is not None:
-        new.save(out)
+        about = {name: old.attrs[name] for name in ("title", "section") if name in old.attrs}
+        ImpactHistory.of(new.dataset.assign_attrs(about)).save(out)
     differences: dict[str, float | None] = {}
     for name in sorted({*old.variables, *new.variables}):  # times and places too
         a, b = (h.array(name) if name in h else None for h in (old, new))

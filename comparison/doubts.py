@@ -11,6 +11,7 @@ import numpy as np
 
 from bent_beam.files import LOSSES
 from bent_beam.history import ImpactHistory
+from bent_beam.hysteresis import first_mode
 from bent_beam.impact import Impact
 from bent_beam.loads import unmodelled
 from bent_beam.measure.numbers import MISSING
@@ -21,6 +22,7 @@ Energies = Mapping[str, float | None]
 
 LIGHTEST = {"youngs_modulus": (1e5, "Pa"), "density": (5.0, "kg/m³")}  # of materials, and units
 STUBBY = 15.0  # radii of gyration: some four depths
+OVERDAMPED = 0.5  # of the first mode, from which a damping ratio is no material's
 STEEP = 0.3  # slope of the bow at the beam's ends from which the small-slope theory deserves a warning
 STRAIGHTENED = 0.1  # N L²/(π² EI) of either sign, from which an axial force deserves one
 NOTABLE_LOSS = 0.02  # of the initial energy, likewise
@@ -50,6 +52,9 @@ def doubts(impact: Impact, section: Section | None) -> list[str]:
             f"the beam is only {impact.length / radius:.2g} radii of gyration long, and these numbers are for slender "
             "beams; are the sizes of the section in m?"
         )
+    ratio = math.pi * impact.damping * first_mode(impact)
+    if ratio >= OVERDAMPED and not _has_no_size(impact):
+        found.append(f"the material damps the first mode with a ratio of {ratio:.2g}: is it meant in percent?")
     if impact.relative_curvature == 0.0 and not impact.wall_in_part and impact.wall_stiffness is None:
         found.append(
             "a straight beam touches a rigid wall with its whole length at once: its rebound is that of the contact "

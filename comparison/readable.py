@@ -158,13 +158,16 @@ def csv_text(documents: Iterable[Mapping[str, Any]]) -> str:
 def write_answer(
     found: Any, out: str | Path, name: str, drawable: bool = True, document: dict[str, Any] | None = None
 ) -> list[Path]:
-    """Document and figure of an answer in ``out``; returns the files."""
+    """Document and figure of an answer in ``out``; returns the files. A figure of an earlier answer does not stay."""
     from comparison.figures import style
 
     out = Path(out)
     file = out / f"{name}.json"
     write_atomically(file, json_text(document or found.to_dict(), indent=1) + "\n")
-    return [file, *(style.save(found.plot(), out, name) if drawable else [])]
+    if not drawable:
+        (out / f"{name}.png").unlink(missing_ok=True)
+        return [file]
+    return [file, *style.save(found.plot(), out, name)]
 
 
 def hits_table(rows: Sequence[Mapping[str, Any]], names: Sequence[str]) -> str:

@@ -9,8 +9,8 @@ from dataclasses import dataclass, field, replace
 from itertools import product
 from typing import Any
 
-from bent_beam.checks import between, finite, non_negative, one_of, positive
-from bent_beam.errors import SimulationError, TimeLimitError
+from bent_beam.checks import between, finite, non_negative, one_of, positive, shortened
+from bent_beam.errors import InputError, SimulationError, TimeLimitError
 from bent_beam.impact import Impact
 from bent_beam.measure.estimators import LeadingEstimate
 from bent_beam.measure.numbers import MISSING, Number
@@ -181,7 +181,10 @@ def questions(
             return first
         return (0.0 - kappa * ((*first, 0.0)[3] or 0.0), *first[1:])  # 0, not −0
 
-    asked: Sequence[Sequence[float | None] | None] = firsts or [None]
+    kappas, asked = list(kappas), [*firsts] if firsts else [None]
+    for name, values in (("kappa_over_nu", kappas), ("first_order", asked), ("refine", refines)):
+        if len({repr(value) for value in values}) < len(values):
+            raise InputError(f"{name} has a value twice (got {shortened(list(values))})")
     return [
         MatchQuestion(method, kappa, load(first, kappa), refine, error_bars, duration, wall)
         for kappa, method, first, refine in product(kappas, methods, asked, refines)

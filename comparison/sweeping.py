@@ -226,7 +226,9 @@ class SweepTable:
             numbers = row.numbers
             cells = [str(numbers[n].scaled(scale)) if n in numbers else "-" for n, (scale, _) in units.items()]
             body.append([readable(value) for value in row.varied.values()] + cells)
-        kept = f"± is the error bar. {self.kept} of {len(self.rows)} rows came from the store."
+        banded = any(isinstance(number, Band) for row in self.rows for number in row.numbers.values())
+        bars = "± is the error bar; a band is mean ± standard deviation of runs" if banded else "± is the error bar"
+        kept = f"{bars}. {self.kept} of {len(self.rows)} rows came from the store."
         lines = [text_table(head, body), "", kept]
         if ends := sorted({row.until for row in self.rows if row.until is not None}):
             lines.append(

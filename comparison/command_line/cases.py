@@ -111,6 +111,8 @@ def predict(
             raise InputError(f"--time: {error}") from None
     if out is not None and not simulates:
         raise InputError(f"--out {out}: nothing is simulated, so that there is nothing to be drawn")
+    if fresh and not simulates:
+        raise InputError("--fresh has no effect: nothing is simulated")
     check_writable(out, folder=True)
     from comparison.predicting import predict_case  # SciPy: no refusal above waits for it
 

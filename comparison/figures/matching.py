@@ -24,14 +24,19 @@ from theory import contact_parameters
 
 DASHES = ("-", "--", ":", "-.")
 """Of theory's curves, a kind for each load."""
+PLOTS = ("leading", "first-order", "work-precision", "work-precision-first-order")
 
 
 def write_match(rows: Sequence[MatchRow], out: Path) -> list[Path]:
-    """``match.json``, ``match.csv`` and the plots that the rows have data for, in ``out``; returns the files."""
+    """``match.json``, ``match.csv`` and the plots that the rows have data for, in ``out``; returns the files. Plots of
+    earlier rows do not stay."""
     files = [out / "match.json", out / "match.csv"]
     write_atomically(files[0], json_text(match_document(rows), indent=1) + "\n")
     write_atomically(files[1], csv_text([row.to_dict() for row in rows]))
-    return files + draw_matching(rows, out) + draw_work_precision(rows, out)
+    files += draw_matching(rows, out) + draw_work_precision(rows, out)
+    for old in {out / f"{name}.png" for name in PLOTS} - {*files}:
+        old.unlink(missing_ok=True)
+    return files
 
 
 def draw_matching(rows: Sequence[MatchRow], out: Path) -> list[Path]:

@@ -158,3 +158,8 @@ def test_a_number_obeys_its_bounds_and_an_error_without_advice_says_none():
         with pytest.raises(ValueError, match=rf"n must .*got {value}"):
             count.checked_number("n", value, whole=True)
     assert "try" not in str(SimulationError("it diverged", time=1.0)) != str(SimulationError("it diverged"))
+
+
+def test_a_wall_from_end_to_end_of_the_beam_is_the_whole_wall() -> None:
+    beam = Impact.whole_beam(0.5)
+    assert beam.replace(wall_from=-1.0, wall_to=1.0) == beam.replace(wall_to=1.0) == beam

@@ -138,6 +138,8 @@ def test_what_fails_is_a_row_with_its_reason(tmp_path, monkeypatch):
     assert rows[3].reason == "time limit: not finished after 0.2 s"
     assert rows[1].r0.theory == rows[0].r0.theory
     assert all(f.stat().st_size > 100 for f in write_match(rows, tmp_path))
+    (tmp_path / "work-precision-first-order.png").write_text("of an earlier match")
+    assert {*write_match(rows, tmp_path)} == {*tmp_path.iterdir()}
     document = json.loads((tmp_path / "match.json").read_text())
     assert document["rows"][1]["r0"] == {"value": None, "error": None, "theory": rows[0].r0.theory}
     assert [f["label"] for f in document["failures"]] == ["fails", "creeps"]

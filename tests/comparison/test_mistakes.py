@@ -12,6 +12,7 @@ from strangers import Plain
 import hermite_fe
 from bent_beam import Impact, InputError
 from bent_beam.cases import EXAMPLES, load_case
+from bent_beam.meshes import UniformMesh
 from comparison import bounce, match, sweep
 from exudyn_models import ExudynModel
 from hermite_fe import HermiteFE
@@ -49,6 +50,8 @@ class Mute(MoreauJean):
         (lambda: match(HermiteFE, kappa_over_nu=[0.5]), r"method: .*: HermiteFE\(\) \(got the class\)"),
         (lambda: bounce(Impact.whole_beam(2.0), 3), r"method: must be .*\(got 3\)"),
         (lambda: bounce(Impact.whole_beam(2.0), Plain()), "theirs lacks for_whole_beam"),
+        (lambda: match(HermiteFE(), kappa_over_nu=[0.5, 0.5]), r"kappa_over_nu has a value twice \(got \[0.5, 0.5\]\)"),
+        (lambda: match(HermiteFE(), kappa_over_nu=[0.5], refine=[1.0, 1.0]), "refine has a value twice"),
         (lambda: sweep({}, {"impact.velocity": 3.0}), r"impact.velocity takes its values in a list, .*\(got 3.0\)"),
     ],
 )
@@ -56,6 +59,16 @@ def test_a_mistake_of_extension_is_one_sentence_that_says_what_to_write(made, sa
     with pytest.raises(InputError, match=said) as told:
         made()
     assert "\n" not in str(told.value)
+
+
+def test_what_is_said_twice_or_has_no_effect_is_refused_by_its_name() -> None:
+    both = ["mesh.kind=uniform", "mesh.element_length=0.05", "hermite.mesh.kind=uniform"]
+    twice = load_case(EXAMPLES / "tube.toml", [*both, "hermite.mesh.element_length=0.02"])
+    with pytest.raises(InputError, match=r"\[mesh\] and \[hermite.mesh\] say the same: give one of them"):
+        twice.method("hermite")
+    chosen = load_case(EXAMPLES / "tube.toml", [*both[:2], "hermite.mesh.kind=auto"]).method("hermite")
+    assert chosen.mesh == UniformMesh(0.05)
+    assert "--fresh has no effect" in refused("predict", EXAMPLES / "tube.toml", "--theory-only", "--fresh")
 
 
 def test_a_newcomer_starts_from_an_example_and_finds_a_key(tmp_path: Path):

@@ -14,6 +14,7 @@ from histories import rod
 
 from bent_beam import Impact
 from bent_beam.cases import case_from_tables, load_case
+from bent_beam.hysteresis import first_mode
 from bent_beam.measure.numbers import FACTOR, Number
 from bent_beam.meshes import UniformMesh
 from comparison import predicting
@@ -138,6 +139,8 @@ def test_a_gate_that_touches_all_at_once_mistaken_units_and_a_hole_that_bends_on
     assert "radii of gyration" in said(outer_diameter=1.0, added_mass=5e4), "what moves along makes no beam slender"
     assert "youngs_modulus = 206 Pa" in said(youngs_modulus=206.0) and "is it in kg/m³" in said(density=2.7)
     hole = Impact.whole_beam(0.5).replace(opposite_wall=0.3, wall_curvature=0.1)
+    percent = Impact(2.0, 1.0, 2.0, 0.1, 1.0, damping=1.0 / (np.pi * first_mode(Impact(2.0, 1.0, 2.0, 0.1, 1.0))))
+    assert "is it meant in percent?" in doubts(percent, None)[0]
     assert "the second wall is flat" in doubts(hole, None)[-1] and doubts(hole.replace(wall_curvature=0.0), None) == []
 
 

@@ -68,7 +68,9 @@ QUICK = ("Signorini, loads of the bow", "nonsmooth generalised-α, sheared", "ex
 
 @pytest.mark.parametrize("kind", [k if k in QUICK else pytest.param(k, marks=pytest.mark.verify) for k in RUNS])
 def test_a_stored_history_is_enough_to_run_it_again_and_then_is_the_same_bit_for_bit(kind, tmp_path):
-    found = rerun_history(ImpactHistory.load(simulated(kind).save(tmp_path / "run.nc")))
+    titled = simulated(kind).described("a tube", None).save(tmp_path / "run.nc")
+    found = rerun_history(ImpactHistory.load(titled), tmp_path / "again.nc")
+    assert ImpactHistory.load(tmp_path / "again.nc").attrs["title"] == "a tube"
     assert found["identical"], found
 
 
