@@ -63,7 +63,7 @@ class Case:
         if self.mesh is None:
             return made
         known = getattr(made, "PARTS", {}).get("mesh", {})
-        if getattr(made, "mesh", None) is not None:
+        if "mesh" in self.tables.get(path, {}) and made.mesh is not None:
             raise InputError(
                 f"[mesh] and [{path}.mesh] say the same: give one of them (got {made.mesh!r} in the latter)"
             )

@@ -128,21 +128,31 @@ def simulated(run: Callable[..., ImpactHistory], impact: Impact, **how: Any) -> 
     return history
 
 
-LONGEST, LONGEST_OF_WALL = 8.0, 100.0  # T*: a beam that then still touches is not about to leave; likewise, at most
-ON_WALL = 3.0  # half periods of the rigid beam on its wall: a load that presses makes one nearly two
+LONGEST, LONGEST_OF_WALL = 8.0, 100.0  # T*: a beam that then still touches a stiff, or a soft wall is given up
+ON_WALL = (
+    3.0  # times time_on_wall that a soft wall is given at least: a load that presses makes it nearly twice as long
+)
 SAVED_LATE = 200  # instants a T* after LONGEST, while a soft wall pushes on
 
 
 def time_on_wall(impact: Impact) -> float:
-    """Half a period of the rigid beam on the springs of its wall, π√(m/k), s; 0 on a rigid one."""
-    begin, end = impact.wall_span
-    stiffness = (impact.wall_stiffness or math.inf) * ((end - begin) or 1.0)
-    return math.pi * math.sqrt(impact.mass_per_length * impact.length / stiffness)
+    """How long a rigid beam is on the springs of its wall, s; 0 on a rigid wall. Straight, π√(m/kL); a bow touches in
+    part, F = (4/3)k√(2/K) δ^{3/2}, for 2.94 δ/V₀ with ½mV₀² = (8/15)k√(2/K) δ^{5/2}, as of Hertz's contact."""
+    if impact.wall_stiffness is None:
+        return 0.0
+    (begin, end), mass = impact.wall_span, impact.mass_per_length * impact.length
+    straight = math.pi * math.sqrt(mass / (impact.wall_stiffness * ((end - begin) or 1.0)))
+    if begin == end or impact.relative_curvature <= 0.0:
+        return straight
+    root = math.sqrt(0.5 * impact.relative_curvature)
+    depth = (15.0 / 16.0 * mass * impact.velocity**2 * root / impact.wall_stiffness) ** 0.4
+    return max(straight, 2.94 * depth / impact.velocity)
 
 
 def separation_times(impact: Impact, longest: float | None = None, save: int = 2000) -> NDArray[np.float64]:
-    """Saved instants, s, of a run until separation: ``save`` to a T*, evenly, up to ``longest`` (s; 8 T*, and before a
-    soft wall until it has thrown the beam off, but 100 T* at most, fewer).
+    """Saved instants, s, of a run until separation: ``save`` to a T*, evenly, up to ``longest``, s. By default that is
+    8 T*, and before a soft wall :data:`ON_WALL` times :func:`time_on_wall`, but 100 T* at most, late instants being
+    fewer.
 
     Raises ``ValueError`` between two walls, or where supports bring the beam back: no separation is then the last.
     """

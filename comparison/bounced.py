@@ -13,7 +13,7 @@ from bent_beam.free_flight import LOWEST_PERIOD
 from bent_beam.measure.balance import Balance
 from bent_beam.measure.numbers import MISSING, Band, Number
 from bent_beam.measure.whole_impact import SHORTEST_SEPARATION, WINDOW, WholeImpact, peak_times
-from bent_beam.method import settings_of
+from bent_beam.method import LONGEST_OF_WALL, ON_WALL, settings_of, time_on_wall
 from bent_beam.versions import versions
 from comparison.doubts import doubts, energy_residual, numerical_loss, told_by
 from comparison.readable import write_answer
@@ -25,6 +25,7 @@ __all__ = ["OF_WHOLE", "Bounce", "documents", "scales", "with_stress"]
 
 OF_WHOLE = ("restitution", "peak_moment", "peak_stress", "peak_force")
 """What is said of a whole impact where it is not all that is asked."""
+OF_FORCE = ("peak_force_time", "peak_force_place")
 LYING = 5.0  # times the largest push or moment: the end for a beam that does not leave
 MARGIN = 1.15  # times the last contact, or the largest value: the end of the axes
 
@@ -112,6 +113,12 @@ class Bounce:
         return 0.0, self.outcome.until * self.impact.slow_time_scale
 
     @property
+    def hardest(self) -> dict[str, Any]:
+        """When and where the wall pushes hardest (:func:`peak_times`); of a largest force that is missing, nothing."""
+        found = peak_times(self.outcome, self.impact)
+        return found | (dict.fromkeys(OF_FORCE) if self.numbers.get("peak_force") == MISSING else {})
+
+    @property
     def balance(self) -> Balance:
         """Momentum, energy and contact of the run itself, read from its state."""
         return self.runs.balance
@@ -135,11 +142,15 @@ class Bounce:
                 f"the beam has {own} of its own: the outcome is irregular and does not converge, so a band is "
                 "given; state a damping for numbers"
             )
-        if MISSING in (self.numbers["peak_moment"], self.numbers.get("peak_force")):
-            found.append("a largest value is missing: it still rises when the run ends")
+        rising = [
+            WHOLE[n].title for n in ("peak_moment", "peak_force") if not self.left and self.numbers.get(n) == MISSING
+        ]
+        if rising:
+            found.append(f"no {' and no '.join(rising)}: it still rises when the run ends")
         turns = self.impact.supported or self.impact.wall_in_part or self.impact.off_centre
         pressed, stays = self.impact.net_load > 0.0, "it has not left the wall for good, so no restitution is given"
-        if not self.left and pressed:
+        thrown = ON_WALL * time_on_wall(self.impact) < LONGEST_OF_WALL * self.units["time"]  # by then, if it can be
+        if not self.left and pressed and thrown:
             found.append(
                 f"the loads keep the beam on the wall: {stays} (flights shorter than "
                 f"{1e3 * LOWEST_PERIOD * self.units['time']:.3g} ms are part of a hit; for that of the impact alone "
@@ -175,7 +186,7 @@ class Bounce:
             "si": with_unit | {"time_unit": self.units["time"]},
             "peak_stress": None if stress is None else {**stress.to_dict(), "unit": "Pa"},
             "yield_stress": None if section is None else section.yield_stress,
-            **peak_times(self.outcome, self.impact),
+            **self.hardest,
             "shortest_separation": SHORTEST_SEPARATION,
             "span": list(self.span),
             "over_damping": self.over_damping,

@@ -162,8 +162,8 @@ def _may_return(made: Runs, restitution: Number) -> float:
 
 def follow_hits(impact: Impact, method: Method, count: int, *, first: ImpactHistory) -> list[Hit]:
     """The first ``count`` hits of a beam on its wall by one run, fewer where it is not back within :data:`LONGEST` T*
-    or comes to rest: a hit that is not over within :data:`RESTS` periods of the lowest mode, or when its wall should
-    have thrown it off, is none.
+    or comes to rest: a hit that is not over within :data:`RESTS` periods of the lowest mode, or in the time that its
+    wall needs to throw it off, is none.
 
     first : the run that a first hit has been read from: the first row is its own.
     Raises ``ValueError`` for what the method refuses, and between two walls.

@@ -24,7 +24,6 @@ from bent_beam.measure.estimators import lift_shares
 from bent_beam.measure.instant import instant
 from bent_beam.measure.moments import AROUND
 from bent_beam.measure.numbers import FACTOR, Number
-from bent_beam.measure.whole_impact import peak_times
 from bent_beam.tables import in_keys
 from comparison.bounced import Bounce, documents, with_stress
 from comparison.bouncing import bounce
@@ -144,8 +143,9 @@ class PredictedCase:
             if force < min(row["time"], holds):  # beyond ``holds`` the whole row is told to be invalid
                 row["reaction"] = None
         told: list[Mapping[str, Any]] = [*(self.simulated or ()), *([] if whole is None else [whole.in_si])]
+        known = [one for numbers in told if (one := yields(numbers, self.case.section)) is not None]
         return document | {
-            "yields": document["yields"] if not told else any(yields(one, self.case.section) for one in told),
+            "yields": any(known) if known else document["yields"],
             "force_until": force,
             "times": rows if self.simulated is None else rows[: len(self.simulated)],
             "model": self.case.impact.model,
@@ -157,7 +157,7 @@ class PredictedCase:
             if whole is None
             else {
                 **documents(whole.in_si, OF_WHOLE),
-                **peak_times(whole.outcome, whole.impact),
+                **whole.hardest,
                 "span": list(whole.span),
                 "over_damping": whole.over_damping,
                 "warnings": whole.warnings,
@@ -219,7 +219,10 @@ def predict_case(
     simulated = [numbers_at(found.get(time), case) for time in times]
     # what runs say, but for their ends: the theory beside them says how long those do not matter
     said_by = {time: {line for line in runs.warnings if REFLECTED not in line} for time, runs in found.items()}
-    by_all = set.intersection(*said_by.values()) - {UNDAMPED} if said_by else set()  # the whole impact has some
+    late = [time for time, lines in said_by.items() if UNDAMPED in lines]  # the whole impact has some damping
+    warnings += [f"until {milliseconds(late[0])}{' and later' if late[1:] else ''}: {UNDAMPED}"] if late else []
+    said_by = {time: lines - {UNDAMPED} for time, lines in said_by.items()}
+    by_all = set.intersection(*said_by.values()) if said_by else set()
     warnings += by_all
     warnings += [f"run to {milliseconds(time)}: {line}" for time, lines in said_by.items() for line in lines - by_all]
     warnings += [

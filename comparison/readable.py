@@ -41,7 +41,7 @@ LIMITS = {
     "wall": "the wall does not act as a rigid one before another limit ends it",
     "section": "the section yields",
 }
-BEFORE = {"shear": "shear deformation matters, to the reaction twice as long", "wall": "the wall gives way"}
+BEFORE = {"shear": "shear deformation matters; for the reaction twice as long", "wall": "the wall gives way"}
 """What a contact does; why the theory ends, and begins late, by the names that the theory has for it."""
 
 

@@ -183,7 +183,7 @@ def questions(
 
     kappas, asked = list(kappas), [*firsts] if firsts else [None]
     for name, values in (("kappa_over_nu", kappas), ("first_order", asked), ("refine", refines)):
-        if len({repr(value) for value in values}) < len(values):
+        if len({tuple(value) if isinstance(value, Sequence) else value for value in values}) < len(values):
             raise InputError(f"{name} has a value twice (got {shortened(list(values))})")
     return [
         MatchQuestion(method, kappa, load(first, kappa), refine, error_bars, duration, wall)

@@ -108,8 +108,8 @@ def _agreement(document: dict[str, Any]) -> list[str]:
     if not any(row.get("simulation") for row in document["times"]):
         return []
     lines = [
-        "Reaction of the simulation: the mean over a tenth of the time before and after; half contact: the median of",
-        "its outermost push then. Moment and stress: the largest of all steps until then.",
+        "Reaction of the simulation: the mean over a tenth of the time before and after; half contact: how far out the",
+        "wall pushes, the median over the same times. Moment and stress: the largest of all steps until then.",
     ]
     if (agreement := document["agreement"]) is None:
         return [*lines, "Theory and simulation do not agree at any of the times compared."]

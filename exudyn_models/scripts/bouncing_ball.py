@@ -21,8 +21,8 @@ def main(arguments: list[str] | None = None) -> None:
     options.add_argument("--restitution", type=float, default=0.8)
     options.add_argument("--out", default="bouncing_ball.png", help="file to save the figure in")
     chosen = options.parse_args(arguments)
-    if not 0.0 < (e := chosen.restitution) <= 1.0:
-        options.error(f"--restitution must lie in (0, 1] (got {e})")
+    if not LOWEST**0.5 < (e := chosen.restitution) <= 1.0:
+        options.error(f"--restitution must lie above {LOWEST**0.5:g}, and at most at 1 (got {e})")
     damping = -2 * np.log(e) / np.hypot(np.pi, np.log(e)) * np.sqrt(STIFFNESS * MASS)
     mbs = exu.SystemContainer().AddSystem()
     ball = mbs.AddNode(items.NodePoint2D(referenceCoordinates=[0.0, 0.0], initialCoordinates=[0.0, HEIGHT]))

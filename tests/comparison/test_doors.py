@@ -64,6 +64,8 @@ def test_every_door_says_that_the_beam_yields_and_that_a_late_number_is_of_a_bea
     for case, yields, none in ((stated, False, False), (weak, True, False), (bare, True, True)):
         known = predict_case(case, [time], whole=False).to_dict()
         assert known["yields"] is yields
+        unknown = replace(case, section=replace(case.section, yield_stress=None))
+        assert predict_case(unknown, [time], whole=False).to_dict()["yields"] is None
         late, whole = (simulate_case(case, "hermite", until=until).to_dict() for until in (time, None))
         told = [known["warnings"], late["warnings"], *([] if none else [whole["warnings"], bounce(case).warnings])]
         for lines in told:

@@ -1,6 +1,7 @@
 """From readings to numbers: what companions change, what no companion shows, and what is said of a run's energies."""
 
 import dataclasses
+from types import SimpleNamespace
 from typing import ClassVar
 
 import numpy as np
@@ -11,7 +12,7 @@ from bent_beam import Impact
 from bent_beam.measure.numbers import FACTOR, Band, Number
 from bent_beam.meshes import UniformMesh
 from comparison.bouncing import follow_hits, problem, whole_numbers, whole_reading
-from comparison.doubts import energy_residual, loss_warnings, numerical_loss, wide_bars
+from comparison.doubts import energy_residual, loss_warnings, numerical_loss, told_by, wide_bars
 from comparison.predicting import OF_INSTANT, instant_numbers
 from comparison.questions import Question
 from comparison.runs import Run, Runs, numbers_of
@@ -113,6 +114,10 @@ def test_a_beam_that_leaves_slowly_may_touch_again_where_twice_the_bar_of_its_ve
 
 def test_bars_over_a_tenth_of_a_number_are_wide_and_a_small_restitution_counts_as_more() -> None:
     assert not wide_bars({"restitution": Number(0.1, 0.02), "peak_moment": Number(1.0, 0.05)})
+    limit = SimpleNamespace(yield_stress=2.4e8)
+    reaches, below = ({"peak_stress": Number(value, 1e7)} for value in (2.35e8, 2.2e8))
+    assert "may be beyond the yield stress of 240 MPa" in told_by(reaches, limit)[0] and not told_by(below, limit)
+    assert "may be beyond" in told_by({"peak_stress": Band(2.3e8, 3e7, 24)}, limit)[0]
     assert not wide_bars({"impulse": Band(1.0, 1.0, 24), "peak_force": Number(), "half_contact_length": Number(1.0)})
     assert not wide_bars({"half_contact_length": Number(0.0, 0.01)})  # one point, within an element
     wide = {"restitution": Number(0.1, 0.04), "impulse": Number(-1.0, 0.2)}

@@ -75,8 +75,12 @@ const Solver = (() => {
       .map(([t, g]) => [t, g / (t - last)]);
   }
 
-  /** T* after which a beam that still touches is given up: a soft wall takes half a period of the rigid beam at least. */
-  const given = ({ wall }) => max(RUNS.longest, wall ? min(RUNS.onWall * Math.PI / sqrt(wall.k), RUNS.longestOfWall) : 0);
+  /** T* after which a beam that still touches is given up: a soft wall needs time to throw it off (bent_beam/method.py). */
+  function given({ wall, kappa }) {
+    if (!wall) return RUNS.longest;
+    const straight = Math.PI / sqrt(wall.k), bowed = 2.94 * (15 / 8 * sqrt(kappa / 2) / wall.k) ** 0.4;
+    return max(RUNS.longest, min(RUNS.onWall * max(straight, bowed), RUNS.longestOfWall));
+  }
 
   /** The impact of p = {kappa, eta, shear, turning, load, tension, pull, before, wall} until the beam has left, with
       `elements` a half beam and `steps` a T*. load: μa₀; tension: N; pull: what it makes of the bow at the ends;

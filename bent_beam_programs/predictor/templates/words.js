@@ -53,7 +53,7 @@ const Words = (() => {
       [wides, "The bars are wide: elements, steps and contact law decide here."],
       [wides, `${COMMAND} --set hermite.refine=2 takes finer elements.`],
       [!b.shear, "Short waves are faster without shear; this page takes few elements, and its bars count that."],
-      [whole && restitution.value === null, "The loads keep the beam on the wall: no restitution is given."],
+      [whole && restitution.value === null, (problem.load + problem.pull > 0 ? "The loads keep the beam on the wall" : "A run ended with the beam at the wall") + ": no restitution is given."],
       [back, "The loads bring the beam back to the wall; these numbers are those of the first hit."],
       [(b.curvature - b.wallCurvature) * b.length / 2 >= DOUBTS.steep, "The bow is steep: all this is for small slopes."],
       [Math.abs(pull) > DOUBTS.straightened && b.naturalCurvature === b.curvature, `The bow is not in equilibrium under the axial force, which ${bends}.`],
