@@ -1,6 +1,7 @@
 """``bentbeam predict``: theory beside a simulation of the whole beam, and the whole impact."""
 
 import json
+import re
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -188,3 +189,11 @@ def test_a_moment_that_the_theory_does_not_know_is_said_to_be_missing() -> None:
     damped = Impact.whole_beam(2.0, relative_damping=1e-3).replace(natural_curvature=1.0)
     found = predict_case(case_of(damped), [1e-3], theory_only=True)
     assert found.to_dict()["peak_moment"] is None and "(theory): not known" in str(found)
+
+
+def test_the_theory_s_largest_force_on_a_wall_is_told_in_kilonewtons_and_milliseconds() -> None:
+    asked = ("predict", PIPE, "--set", "wall.stiffness=2e7", "--theory-only")
+    wall, text = answered(*asked)["wall"], command(*asked)[1]
+    told = re.search(r"infinite beam\): (\S+) kN at (\S+) ms, over a zone of ± (\S+) m", text)
+    known = (1e-3 * wall["peak_force"], 1e3 * wall["peak_force_time"], wall["half_contact_length"])
+    assert told and tuple(map(float, told.groups())) == pytest.approx(known, rel=5e-3)
