@@ -129,9 +129,7 @@ def simulated(run: Callable[..., ImpactHistory], impact: Impact, **how: Any) -> 
 
 
 LONGEST, LONGEST_OF_WALL = 8.0, 100.0  # T*: a beam that then still touches a stiff, or a soft wall is given up
-ON_WALL = (
-    3.0  # times time_on_wall that a soft wall is given at least: a load that presses makes it nearly twice as long
-)
+ON_WALL = 3.0  # times time_on_wall is a soft wall given: a load that presses makes that nearly twice as long
 SAVED_LATE = 200  # instants a T* after LONGEST, while a soft wall pushes on
 
 

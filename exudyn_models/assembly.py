@@ -35,9 +35,7 @@ MODELLED = ("acceleration", "curvature_rate", "fourth_derivative", "axial_force"
 
 STRETCH = 1e-4  # largest strain under the axial force in the linear limit: lengths are then right to as much
 TAUT = 1e4  # EAΛ²/EI under it: the stretch then moves the front by 7e-4 of what the force itself does (κ/ν = 0.5)
-STRETCH_LATER = (
-    1e-6  # likewise once waves are back: with 1e-4 the impulse is 1e-3 off, at 1e-7 round-off takes 1e-6 of the energy
-)
+STRETCH_LATER = 1e-6  # likewise once waves are back: with 1e-4 the impulse is 1e-3 off, with 1e-7 round-off shows
 NEAR = 1e-9  # of the length: a node so near an edge of the wall lies on it
 GREY = [0.35, 0.35, 0.35, 1.0]
 
