@@ -149,9 +149,7 @@ class Bounce:
             found.append(f"no {' and no '.join(rising)}: it still rises when the run ends")
         turns = self.impact.supported or self.impact.wall_in_part or self.impact.off_centre
         pressed, stays = self.impact.net_load > 0.0, "it has not left the wall for good, so no restitution is given"
-        thrown = (
-            ON_WALL * time_on_wall(self.impact) < LONGEST_OF_WALL * self.units["time"]
-        )  # in a run, if no load holds it
+        thrown = ON_WALL * time_on_wall(self.impact) < LONGEST_OF_WALL * self.units["time"]  # if no load holds it
         if not self.left and pressed and thrown:
             found.append(
                 f"the loads keep the beam on the wall: {stays} (flights shorter than "
