@@ -19,7 +19,7 @@ from comparison.doubts import doubts, energy_residual, numerical_loss, told_by
 from comparison.readable import write_answer
 from comparison.runs import Runs
 from comparison.texts import bounce_text
-from comparison.whole_numbers import WHOLE
+from comparison.whole_numbers import MAY_RISE, WHOLE
 
 __all__ = ["OF_WHOLE", "Bounce", "documents", "scales", "with_stress"]
 
@@ -142,10 +142,8 @@ class Bounce:
                 f"the beam has {own} of its own: the outcome is irregular and does not converge, so a band is "
                 "given; state a damping for numbers"
             )
-        rising = [
-            WHOLE[n].title for n in ("peak_moment", "peak_force") if not self.left and self.numbers.get(n) == MISSING
-        ]
-        if rising:
+        rising = [WHOLE[name].title for name in MAY_RISE if self.numbers.get(name) == MISSING]
+        if rising and not self.left:
             found.append(f"no {' and no '.join(rising)}: it still rises when the run ends")
         turns = self.impact.supported or self.impact.wall_in_part or self.impact.off_centre
         pressed, stays = self.impact.net_load > 0.0, "it has not left the wall for good, so no restitution is given"

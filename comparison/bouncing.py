@@ -28,13 +28,12 @@ from comparison.doubts import energy_at_end
 from comparison.questions import SEED, Progress, Question
 from comparison.runs import Runs, bands_of, numbers_of, runs_of, unseen_of_moment
 from comparison.store import RunStore
-from comparison.whole_numbers import FINAL, NUMBERS
+from comparison.whole_numbers import FINAL, MAY_RISE, NUMBERS
 
 __all__ = ["DAMPING_RATIOS", "bounce", "case_of", "follow_hits", "problem", "whole_numbers", "whole_reading"]
 
 Beam = Case | Impact | str | Path | Mapping[str, Any]
 TIMES = ("last_contact", "peak_moment_time")
-MAY_RISE = ("peak_moment", "peak_force")
 RUNS = 24  # of a band
 DAMPING_RATIOS = (0.0002, 0.002, 0.02)  # of the first mode: bare steel, a bar as it is held, with joints
 LONGEST, INSTANTS = 100.0, 200  # T*, of the longest run that follows hits; saved a T* of it
