@@ -128,7 +128,7 @@ def simulated(run: Callable[..., ImpactHistory], impact: Impact, **how: Any) -> 
     return history
 
 
-LONGEST, LONGEST_OF_WALL = 8.0, 100.0  # T*, until when a beam is followed that stays on its wall; at most, on a soft one
+LONGEST, LONGEST_OF_WALL = 8.0, 100.0  # T*, until when a beam is followed that stays on its wall; on a soft one
 ON_WALL = 3.0  # times `time_on_wall`, as long a beam may need on a soft wall: a load that presses nearly doubles it
 SAVED_LATE = 200  # instants a T* after LONGEST, while a soft wall pushes on
 
