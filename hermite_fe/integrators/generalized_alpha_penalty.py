@@ -23,14 +23,7 @@ from bent_beam.impact import Impact
 from hermite_fe.active_set import CYCLING, SINGULAR, SOLVED, solve_free
 from hermite_fe.banded import copy
 from hermite_fe.compiled import Array, Flags, compiled, compiled_within
-from hermite_fe.constraints import (
-    PRODUCT,
-    SMALLEST_REACTION,
-    Constraints,
-    constraints_of,
-    count_rounds,
-    rows_times,
-)
+from hermite_fe.constraints import PRODUCT, SMALLEST_REACTION, Constraints, constraints_of, count_rounds, rows_times
 from hermite_fe.integrators import generalized_alpha as alpha
 from hermite_fe.integrators.base import Integrator
 from hermite_fe.stepping import Problem, State, forces_at
@@ -44,56 +37,6 @@ class PenaltyMemory(NamedTuple):
     stiffness: float
     damping: float
     rounds: int
-
-
-@dataclass(frozen=True)
-class GeneralizedAlphaPenalty(Integrator):
-    """Generalised-α with a spring and damper at each node while it penetrates."""
-
-    rebounds: ClassVar[bool] = False
-
-    spectral_radius: alpha.SpectralRadius = 0.8
-    stiffness: Annotated[
-        float | None,
-        Quantity("N/m²", "k_c, per length of beam", above=0.0, absent="chosen, 1e5 μ/T² of a run to T"),
-    ] = None
-    damping: Annotated[
-        float | None,
-        Quantity("N s/m²", "d_c, per length of beam", least=0.0, absent="chosen, 3e3 μ/T of a run to T"),
-    ] = None
-    contact_rounds: Annotated[
-        int, Quantity("", "limit on solutions a step for the set of active springs; more fail", least=1)
-    ] = 20
-
-    def refined(self, factor: float) -> Self:
-        """Steps shorter, the contact stiffer in proportion to their square: the error of the penalty must fall too."""
-        return dataclasses.replace(
-            super().refined(factor),
-            stiffness=None if self.stiffness is None else self.stiffness * factor**2,
-            damping=None if self.damping is None else self.damping * factor,
-        )
-
-    def with_defaults(self, impact: Impact, end_time: float | None) -> Self:
-        """The shorter the run the stiffer, as the front is the thinner; T* / 10 is as good as longer ones."""
-        mass, time = impact.mass_per_length, min(end_time or math.inf, 0.1 * impact.slow_time_scale)
-        return dataclasses.replace(
-            self,
-            stiffness=1e5 * mass / time**2 if self.stiffness is None else self.stiffness,
-            damping=3e3 * mass / time if self.damping is None else self.damping,
-        )
-
-    def start(self, problem: Problem, state: State) -> PenaltyMemory:
-        if self.stiffness is None or self.damping is None:
-            raise InputError("integrator.stiffness and integrator.damping are not chosen yet")
-        if problem.rows.dofs.shape[1] != 1:
-            raise InputError('generalized_alpha_penalty takes contact.kind = "node" or "alternate"')
-        motion = alpha.motion_of(problem, state, self.spectral_radius)
-        return PenaltyMemory(motion, constraints_of(problem.rows), self.stiffness, self.damping, self.contact_rounds)
-
-    def advance(
-        self, problem: Problem, state: State, memory: PenaltyMemory, times: Array, first: int, last: int
-    ) -> tuple[int, int]:
-        return take_steps(problem, state, memory, times, first, last)
 
 
 @compiled
@@ -184,3 +127,50 @@ def add_spring_reactions(problem: Problem, state: State, memory: PenaltyMemory, 
         alpha.take_reaction(motion.scheme, reactions, h, j, force)
         state.impulse[j] += reactions.impulse[j]
         worst[SMALLEST_REACTION] = min(worst[SMALLEST_REACTION], h * force)
+
+
+@dataclass(frozen=True)
+class GeneralizedAlphaPenalty(Integrator):
+    """Generalised-α with a spring and damper at each node while it penetrates."""
+
+    rebounds: ClassVar[bool] = False
+
+    spectral_radius: alpha.SpectralRadius = 0.8
+    stiffness: Annotated[
+        float | None,
+        Quantity("N/m²", "k_c, per length of beam", above=0.0, absent="chosen, 1e5 μ/T² of a run to T"),
+    ] = None
+    damping: Annotated[
+        float | None,
+        Quantity("N s/m²", "d_c, per length of beam", least=0.0, absent="chosen, 3e3 μ/T of a run to T"),
+    ] = None
+    contact_rounds: Annotated[
+        int, Quantity("", "limit on solutions a step for the set of active springs; more fail", least=1)
+    ] = 20
+
+    def refined(self, factor: float) -> Self:
+        """Steps shorter, the contact stiffer in proportion to their square: the error of the penalty must fall too."""
+        return dataclasses.replace(
+            super().refined(factor),
+            stiffness=None if self.stiffness is None else self.stiffness * factor**2,
+            damping=None if self.damping is None else self.damping * factor,
+        )
+
+    def with_defaults(self, impact: Impact, end_time: float | None) -> Self:
+        """The shorter the run the stiffer, as the front is the thinner; T* / 10 is as good as longer ones."""
+        mass, time = impact.mass_per_length, min(end_time or math.inf, 0.1 * impact.slow_time_scale)
+        return dataclasses.replace(
+            self,
+            stiffness=1e5 * mass / time**2 if self.stiffness is None else self.stiffness,
+            damping=3e3 * mass / time if self.damping is None else self.damping,
+        )
+
+    def start(self, problem: Problem, state: State) -> PenaltyMemory:
+        if self.stiffness is None or self.damping is None:
+            raise InputError("integrator.stiffness and integrator.damping are not chosen yet")
+        if problem.rows.dofs.shape[1] != 1:
+            raise InputError('generalized_alpha_penalty takes contact.kind = "node" or "alternate"')
+        motion = alpha.motion_of(problem, state, self.spectral_radius)
+        return PenaltyMemory(motion, constraints_of(problem.rows), self.stiffness, self.damping, self.contact_rounds)
+
+    advance = staticmethod(take_steps)

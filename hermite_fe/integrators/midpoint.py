@@ -17,7 +17,7 @@ from typing import ClassVar, NamedTuple
 
 import numpy as np
 
-from hermite_fe.active_set import CYCLING, SOLVED, solve_free
+from hermite_fe.active_set import CYCLING, SOLVED, largest_of_a_kind, solve_free
 from hermite_fe.banded import PAD, copy, multiply
 from hermite_fe.compiled import Array, Places, compiled, compiled_within
 from hermite_fe.constraints import count_rounds
@@ -51,27 +51,6 @@ class MidpointMemory(NamedTuple):
     wall: Array
 
 
-@dataclass(frozen=True)
-class Midpoint(Integrator):
-    """The implicit midpoint rule, for a wall that gives way."""
-
-    rebounds: ClassVar[bool] = False
-    elastic: ClassVar[bool] = True
-    hysteretic: ClassVar[bool] = True
-
-    def start(self, problem: Problem, state: State) -> MidpointMemory:
-        n, base, reach = state.q.size, np.zeros_like(problem.solver.S), np.zeros(1, np.int64)
-        impulse, peaks = np.zeros_like(state.impulse), np.zeros((2, state.peaks.size))
-        right, solution, new = np.zeros((3, n))
-        tangent, wall = np.zeros((4, n)), np.zeros((2, n))
-        return MidpointMemory(vectors_of(problem), base, tangent, reach, impulse, peaks, right, solution, new, wall)
-
-    def advance(
-        self, problem: Problem, state: State, memory: MidpointMemory, times: Array, first: int, last: int
-    ) -> tuple[int, int]:
-        return take_steps(problem, state, memory, times, first, last)
-
-
 @compiled
 def take_steps(
     problem: Problem, state: State, memory: MidpointMemory, times: Array, first: int, last: int
@@ -96,9 +75,7 @@ def solve_step(problem: Problem, state: State, memory: MidpointMemory, t: float,
     springs, second, rows, solver = problem.matrices.springs, problem.matrices.second, problem.rows, problem.solver
     walls, total = memory.wall, np.zeros(2)
     q, v, dv, new, right, x = state.q, state.v, memory.vectors.dv, memory.new, memory.right, memory.solution
-    speed, bent, converged = 0.0, 0.0, False
-    for i in range(0, v.size, 2):
-        speed, bent = max(speed, abs(v[i])), max(bent, abs(q[i]))
+    (speed, _), (bent, _), converged = largest_of_a_kind(v), largest_of_a_kind(q), False
     for k in range(MOST_ROUNDS):
         for i in range(q.size):
             new[i] = q[i] + h * (v[i] + 0.5 * dv[i])
@@ -147,3 +124,21 @@ def record_push(problem: Problem, state: State, memory: MidpointMemory, t: float
         state.peaks[FORCE], state.peaks[FORCE_TIME] = largest, t + 0.5 * h
     for i in (PENETRATION, PRESSURE):
         state.peaks[i] = max(state.peaks[i], memory.peaks[0, i], memory.peaks[1, i])
+
+
+@dataclass(frozen=True)
+class Midpoint(Integrator):
+    """The implicit midpoint rule, for a wall that gives way."""
+
+    rebounds: ClassVar[bool] = False
+    elastic: ClassVar[bool] = True
+    hysteretic: ClassVar[bool] = True
+
+    def start(self, problem: Problem, state: State) -> MidpointMemory:
+        n, base, reach = state.q.size, np.zeros_like(problem.solver.S), np.zeros(1, np.int64)
+        impulse, peaks = np.zeros_like(state.impulse), np.zeros((2, state.peaks.size))
+        right, solution, new = np.zeros((3, n))
+        tangent, wall = np.zeros((4, n)), np.zeros((2, n))
+        return MidpointMemory(vectors_of(problem), base, tangent, reach, impulse, peaks, right, solution, new, wall)
+
+    advance = staticmethod(take_steps)

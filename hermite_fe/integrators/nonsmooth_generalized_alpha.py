@@ -53,26 +53,6 @@ class AlphaMemory(NamedTuple):
     level: int
 
 
-@dataclass(frozen=True)
-class NonsmoothGeneralizedAlpha(Integrator):
-    """Generalised-α with jumps, its constraints imposed at the levels asked for."""
-
-    holds: ClassVar[bool] = True
-
-    spectral_radius: alpha.SpectralRadius = 0.8
-    levels: Annotated[str, Quantity("", "at which constraints are imposed", choices=LEVELS)] = LEVELS[-1]
-
-    def start(self, problem: Problem, state: State) -> AlphaMemory:
-        smooth, position, velocity = (constraints_of(problem.rows) for _ in range(3))
-        motion, level = alpha.motion_of(problem, state, self.spectral_radius), LEVELS.index(self.levels)
-        return AlphaMemory(motion, smooth, position, velocity, level)
-
-    def advance(
-        self, problem: Problem, state: State, memory: AlphaMemory, times: Array, first: int, last: int
-    ) -> tuple[int, int]:
-        return take_steps(problem, state, memory, times, first, last)
-
-
 @compiled
 def take_steps(
     problem: Problem, state: State, memory: AlphaMemory, times: Array, first: int, last: int
@@ -236,3 +216,20 @@ def velocity_after_position(problem: Problem, state: State, memory: AlphaMemory,
             fastest += abs(rows.factors[j, i]) * math.sqrt(energy / problem.matrices.M[0, rows.dofs[j, i]])
         reactions.at_rest[j] = velocity.closed[j] and abs(row_times(rows, v, j)) <= AT_REST * fastest
     return status
+
+
+@dataclass(frozen=True)
+class NonsmoothGeneralizedAlpha(Integrator):
+    """Generalised-α with jumps, its constraints imposed at the levels asked for."""
+
+    holds: ClassVar[bool] = True
+
+    spectral_radius: alpha.SpectralRadius = 0.8
+    levels: Annotated[str, Quantity("", "at which constraints are imposed", choices=LEVELS)] = LEVELS[-1]
+
+    def start(self, problem: Problem, state: State) -> AlphaMemory:
+        smooth, position, velocity = (constraints_of(problem.rows) for _ in range(3))
+        motion, level = alpha.motion_of(problem, state, self.spectral_radius), LEVELS.index(self.levels)
+        return AlphaMemory(motion, smooth, position, velocity, level)
+
+    advance = staticmethod(take_steps)

@@ -60,55 +60,12 @@ class Vectors(NamedTuple):
     scratch: Array
 
 
+Memory = tuple[Constraints, Vectors, float, bool]  # the last two are θ and ``at_position``
+
+
 def vectors_of(problem: Problem) -> Vectors:
     """Work arrays for ``problem``, zero."""
     return Vectors(*np.zeros((6, problem.matrices.M.shape[1])))
-
-
-@dataclass(frozen=True)
-class Theta(Integrator):
-    """Base of the θ-schemes with constraints."""
-
-    holds: ClassVar[bool] = True
-    hysteretic: ClassVar[bool] = True
-    holds_zone: ClassVar[bool] = True
-    at_position: ClassVar[bool]
-
-    theta: Annotated[
-        float, Quantity("", "θ; ½ conserves energy between impacts, 1 damps unresolved waves", least=0.5, most=1.0)
-    ] = 1.0
-
-    @property
-    def sticks(self) -> bool:
-        return not self.at_position or self.theta == 1.0
-
-    def start(self, problem: Problem, state: State) -> tuple[Constraints, Vectors]:
-        return constraints_of(problem.rows), vectors_of(problem)
-
-    def advance(
-        self, problem: Problem, state: State, memory: tuple[Constraints, Vectors], times: Array, first: int, last: int
-    ) -> tuple[int, int]:
-        return take_steps(problem, state, memory, times, first, last, self.theta, self.at_position)
-
-
-@dataclass(frozen=True)
-class MoreauJean(Theta):
-    """A θ-scheme with the impact law at velocity level."""
-
-    at_position: ClassVar[bool] = False
-
-
-@dataclass(frozen=True)
-class SignoriniPosition(Theta):
-    """A θ-scheme with Signorini's condition at the new position.
-
-    For the infinite beam's first instants θ = 1: θ near ½ makes closed constraints rattle. For a whole beam with
-    damping of its own ½, which damps nothing but impacts.
-    """
-
-    at_position: ClassVar[bool] = True
-    rebounds: ClassVar[bool] = False
-    elements_in_first_front: ClassVar[float] = 3.0
 
 
 @compiled_within
@@ -158,12 +115,9 @@ def finish_step(problem: Problem, state: State, p: Array, vectors: Vectors, h: f
 
 
 @compiled
-def take_steps(
-    problem: Problem, state: State, memory: tuple[Constraints, Vectors], times: Array, first: int, last: int,
-    theta: float, at_position: bool
-) -> tuple[int, int]:  # fmt: skip
+def take_steps(problem: Problem, state: State, memory: Memory, times: Array, first: int, last: int) -> tuple[int, int]:
     """Take the steps ``first`` … ``last`` − 1 between the instants ``times``; returns (status, step reached)."""
-    (_, rows, law, solver), (conditions, vectors) = problem, memory
+    (_, rows, law, solver), (conditions, vectors, theta, at_position) = problem, memory
     for k in range(first, last):
         h, _ = begin_step(problem, state, vectors, times[k], times[k + 1], theta)
         set_bounds(rows, law, state.closed, times[k], h, conditions.least)
@@ -185,3 +139,46 @@ def take_steps(
         if status != SOLVED:
             return status, k
     return SOLVED, last
+
+
+@dataclass(frozen=True)
+class Theta(Integrator):
+    """Base of the θ-schemes with constraints."""
+
+    holds: ClassVar[bool] = True
+    hysteretic: ClassVar[bool] = True
+    holds_zone: ClassVar[bool] = True
+    at_position: ClassVar[bool]
+
+    theta: Annotated[
+        float, Quantity("", "θ; ½ conserves energy between impacts, 1 damps unresolved waves", least=0.5, most=1.0)
+    ] = 1.0
+
+    @property
+    def sticks(self) -> bool:
+        return not self.at_position or self.theta == 1.0
+
+    def start(self, problem: Problem, state: State) -> Memory:
+        return constraints_of(problem.rows), vectors_of(problem), self.theta, self.at_position
+
+    advance = staticmethod(take_steps)
+
+
+@dataclass(frozen=True)
+class MoreauJean(Theta):
+    """A θ-scheme with the impact law at velocity level."""
+
+    at_position: ClassVar[bool] = False
+
+
+@dataclass(frozen=True)
+class SignoriniPosition(Theta):
+    """A θ-scheme with Signorini's condition at the new position.
+
+    For the infinite beam's first instants θ = 1: θ near ½ makes closed constraints rattle. For a whole beam with
+    damping of its own ½, which damps nothing but impacts.
+    """
+
+    at_position: ClassVar[bool] = True
+    rebounds: ClassVar[bool] = False
+    elements_in_first_front: ClassVar[float] = 3.0
