@@ -12,7 +12,6 @@ from bent_beam.errors import InputError
 from bent_beam.free_flight import Separation
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
-from bent_beam.loads import wall_scales
 from bent_beam.meshes import MESHES, UniformMesh
 from bent_beam.method import Progress, Save, made_of, separation_times
 from hermite_fe import resolution, whole_beam
@@ -105,26 +104,22 @@ class HermiteFE(Composition):
                 "domain cuts a free beam that touches at its middle alone, before one long wall, at first: "
                 f"leave it out here (got {self.domain!r})"
             )
-        wall = wall_scales(impact)
         mesh = (self.mesh or UniformMesh(whole_beam.element(impact, end_time))).refined(self.refine)
         shortest = float(np.diff(mesh.nodes(impact.half_length)).min())
         contact = self.contact or NodeContact()
         chosen = self.integrator or whole_beam.scheme(impact, contact, shortest, end_time)
         integrator = chosen.with_defaults(impact, end_time)  # before it is refined: what is open cannot be
-        if integrator.time_step is None and wall is not None:
-            step = resolution.ELASTIC_STEP * min(wall.time, impact.slow_time_scale)
-            integrator = integrator.with_steps(step, 0.0).refined(self.refine)
-        elif integrator.time_step is None:
-            step = whole_beam.step(impact, shortest)
-            # a stated growth shrinks as the step of refined elements does
+        step = whole_beam.step(impact, shortest)
+        if integrator.time_step is None and impact.wall_stiffness is None:
+            # the step is that of refined elements; a stated growth shrinks as it does
             integrator = integrator.refined(self.refine**2).with_steps(step, 0.0)
         else:
-            integrator = integrator.with_steps(integrator.time_step, 0.0).refined(self.refine)
+            integrator = integrator.with_steps(step, 0.0).refined(self.refine)
         return dataclasses.replace(
             self,
             mesh=mesh,
             integrator=integrator,
-            contact=contact if wall is None else self.contact,
+            contact=contact if impact.wall_stiffness is None else self.contact,
             far_field=self.far_field or GridViscosity(viscosity=0.0),
             full_beam=self.full_beam or impact.off_centre,
             refine=1.0,

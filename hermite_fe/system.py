@@ -55,12 +55,8 @@ class ContactRows:
         set_(self, "dofs", dofs)
         set_(self, "factors", np.ascontiguousarray(self.factors, float).reshape(dofs.shape))
         set_(self, "gap", np.ascontiguousarray(self.gap, float).reshape(rows))
-        for name, default in (
-            ("places", np.zeros(rows)),
-            ("rank", np.arange(rows)),
-            ("side", np.zeros(rows, np.int64)),
-            ("tributary", np.ones(rows)),
-        ):
+        defaults = {"places": np.zeros(rows), "rank": np.arange(rows), "side": np.zeros(rows, np.int64)}
+        for name, default in (defaults | {"tributary": np.ones(rows)}).items():
             value = getattr(self, name) if np.size(getattr(self, name)) else default
             if np.shape(value) != (rows,):
                 raise InputError(f"contact rows: {name} must have shape ({rows},) (got {np.shape(value)})")

@@ -25,6 +25,7 @@ from bent_beam.loads import wall_scales
 from hermite_fe.contacts import Contact
 from hermite_fe.integrators import Integrator, MoreauJean
 from hermite_fe.resolution import (
+    ELASTIC_STEP,
     ELEMENTS_IN_FRONT,
     LARGEST_STEP,
     LONGEST_FIRST_STEP,
@@ -101,7 +102,9 @@ def element(impact: Impact, end_time: float | None) -> float:
 
 
 def step(impact: Impact, element: float) -> float:
-    """Step, s, on such elements of this length, m, before a rigid wall."""
+    """Step, s, on such elements of this length, m."""
+    if (wall := wall_scales(impact)) is not None:
+        return ELASTIC_STEP * min(wall.time, impact.slow_time_scale)
     if impact.shear_stiffness is None:
         return 0.5 * element**2 / impact.wave_constant
     return SHEARED_STEP * element / impact.half_length * impact.slow_time_scale
