@@ -1,10 +1,13 @@
 """Integrators and small systems that tests of the Hermite path share."""
 
+import ast
 from collections.abc import Callable
 from functools import partial
 from typing import Any
 
 import numpy as np
+from fences import blocks
+from here import ROOT
 
 from hermite_fe.integrators import (
     GeneralizedAlphaPenalty,
@@ -41,6 +44,16 @@ def chain(gap: float, load: list[list[float]]) -> System:
         load=load,
         contacts=ContactRows([[0]], [[1.0]], [gap]),
     )
+
+
+def defined_in(page: str) -> dict[str, Any]:
+    """What a page of the docs imports and defines, without what it runs."""
+    space: dict[str, Any] = {"__name__": "docs"}
+    for block in blocks(ROOT / "docs" / page):
+        tree = ast.parse(block.body if block.language == "python" else "")
+        tree.body = [part for part in tree.body if isinstance(part, ast.Import | ast.ImportFrom | ast.ClassDef)]
+        exec(compile(tree, page, "exec", dont_inherit=True), space)
+    return space
 
 
 def account(sums: dict[str, Any]) -> Any:

@@ -23,7 +23,7 @@ from hermite_fe.compiled import Array, Places, compiled, compiled_within
 from hermite_fe.constraints import count_rounds
 from hermite_fe.elastic_wall import FORCE, FORCE_TIME, PENETRATION, PRESSURE, push
 from hermite_fe.integrators.base import Integrator
-from hermite_fe.integrators.theta import Vectors, begin_step, finish_step, vectors_of
+from hermite_fe.integrators.theta import Vectors, begin_step, finish_step
 from hermite_fe.stepping import WALL, Problem, State
 
 CONVERGED = 1e-11  # change of Δv over the largest velocity; the next would be its square
@@ -137,8 +137,8 @@ class Midpoint(Integrator):
     def start(self, problem: Problem, state: State) -> MidpointMemory:
         n, base, reach = state.q.size, np.zeros_like(problem.solver.S), np.zeros(1, np.int64)
         impulse, peaks = np.zeros_like(state.impulse), np.zeros((2, state.peaks.size))
+        vectors, tangent, wall = Vectors(*np.zeros((6, n))), np.zeros((4, n)), np.zeros((2, n))
         right, solution, new = np.zeros((3, n))
-        tangent, wall = np.zeros((4, n)), np.zeros((2, n))
-        return MidpointMemory(vectors_of(problem), base, tangent, reach, impulse, peaks, right, solution, new, wall)
+        return MidpointMemory(vectors, base, tangent, reach, impulse, peaks, right, solution, new, wall)
 
     advance = staticmethod(take_steps)

@@ -63,11 +63,6 @@ class Vectors(NamedTuple):
 Memory = tuple[Constraints, Vectors, float, bool]  # the last two are θ and ``at_position``
 
 
-def vectors_of(problem: Problem) -> Vectors:
-    """Work arrays for ``problem``, zero."""
-    return Vectors(*np.zeros((6, problem.matrices.M.shape[1])))
-
-
 @compiled_within
 def begin_step(
     problem: Problem, state: State, vectors: Vectors, t: float, end: float, theta: float
@@ -159,7 +154,7 @@ class Theta(Integrator):
         return not self.at_position or self.theta == 1.0
 
     def start(self, problem: Problem, state: State) -> Memory:
-        return constraints_of(problem.rows), vectors_of(problem), self.theta, self.at_position
+        return constraints_of(problem.rows), Vectors(*np.zeros((6, state.q.size))), self.theta, self.at_position
 
     advance = staticmethod(take_steps)
 

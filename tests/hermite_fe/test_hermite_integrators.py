@@ -3,12 +3,10 @@
 import math
 from dataclasses import replace
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 import pytest
-from fences import snippet
-from hermite_parts import ALL, DROP, FIRST_ORDER, GRAVITY, WITH_IMPACT_LAW, Make, ball, chain
+from hermite_parts import ALL, DROP, FIRST_ORDER, GRAVITY, WITH_IMPACT_LAW, Make, ball, chain, defined_in
 
 from bent_beam import Impact, SimulationError
 from bent_beam.meshes import ScaleFreeMesh, UniformMesh
@@ -20,21 +18,11 @@ from hermite_fe.run import integrate
 from hermite_fe.system import ContactRows, System
 from theory.ladder import BouncingBall
 
-GUIDE = "guide/add-integrator.md"
 PUSHED = [[1.0, 2.0], [0.5, -0.3]]  # load of the chain
 START = np.array([0.5, -0.2]), np.array([0.0, 1.0])
 
 
-def guide_integrator() -> Any:
-    """The class that the guide writes, from the guide."""
-    code = snippet(GUIDE, "class NewmarkProjection")
-    assert len(code.splitlines()) <= 45
-    space: dict[str, Any] = {"__name__": "guide"}
-    exec(compile(code, GUIDE, "exec", dont_inherit=True), space)
-    return space["NewmarkProjection"]
-
-
-GUIDED = WITH_IMPACT_LAW | {"the guide's": guide_integrator()}
+GUIDED = WITH_IMPACT_LAW | {"the guide's": defined_in("guide/add-integrator.md")["NewmarkProjection"]}
 with_impact_law = pytest.mark.parametrize("make", GUIDED.values(), ids=GUIDED)
 
 
@@ -110,7 +98,8 @@ def test_a_penalty_carries_a_weight_by_its_penetration_and_bounces_elastically_w
     assert product == pytest.approx(GRAVITY**2 / k, rel=0.15)  # the start shakes it a little
     stiff = GeneralizedAlphaPenalty(1e-4, stiffness=1e6, damping=0.0, spectral_radius=1.0)
     run = integrate(ball(), np.array([DROP]), np.zeros(1), stiff, 1.2)
-    assert np.abs(run.q[:, 0] - BouncingBall(height=DROP, gravity=GRAVITY, restitution=1.0).position(run.time)).mean() < 5e-3
+    exact = BouncingBall(height=DROP, gravity=GRAVITY, restitution=1.0).position(run.time)
+    assert np.abs(run.q[:, 0] - exact).mean() < 5e-3
 
 
 def test_the_guide_s_integrator_gives_the_impulse_of_the_impact() -> None:
