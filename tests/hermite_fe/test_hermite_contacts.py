@@ -101,6 +101,15 @@ def test_no_hold_acts_once_waves_may_be_back() -> None:
     assert held[-1] == held[np.searchsorted(history.time, 0.0052)] < 0.0
 
 
+def test_impact_loss_vanishes_under_refinement() -> None:
+    losses = []
+    for element in (0.08, 0.04, 0.02):
+        scheme = SignoriniPosition(time_step=0.05 * element**2, growth=1e-3)
+        history = simulate(IMPACT, end_time=0.3, mesh=ScaleFreeMesh(element, 1.01), integrator=scheme)
+        losses.append(history.energy_budget()["loss_impact"])
+    assert losses[0] > 1.7 * losses[1] > 1.7**2 * losses[2] > 0.0
+
+
 @pytest.mark.parametrize(
     "contact",
     [QuarterContact(), pytest.param(MiddleContact(), marks=verify), pytest.param(CONTACTS["mean"](), marks=verify)],

@@ -1,4 +1,4 @@
-"""What leaves does not come back: reflection of wave packets, and when waves are back."""
+"""What leaves does not come back: reflection of wave packets, and indifference to a larger far field."""
 
 import re
 
@@ -8,6 +8,8 @@ from numpy.typing import NDArray
 
 from bent_beam import Impact
 from bent_beam.meshes import ScaleFreeMesh, UniformMesh
+from hermite_fe import simulate
+from hermite_fe.banded import product
 from hermite_fe.beam import HermiteBeam
 from hermite_fe.far_fields import FarField, GridViscosity, Sponge
 from hermite_fe.integrators import NonsmoothGeneralizedAlpha
@@ -57,6 +59,27 @@ def test_a_packet_dies_in_viscosity_and_sponge_and_is_back_without(nodes, far_fi
     """In elements that grow with viscosity a packet dies on its way to where a few of them make a wave; what the mesh
     carries to the end dies in a sponge."""
     assert least <= returned(nodes, far_field, number, start, turn) < most
+
+
+def test_doubling_the_far_field_changes_nothing() -> None:
+    def impulse(length: float) -> Array:
+        impact = Impact.dimensionless(0.5, length=length)
+        mesh = ScaleFreeMesh(0.01, 1.01)
+        nodes = mesh.nodes(200.0)
+        size = float(nodes[np.searchsorted(nodes, 0.5 * length)])  # the same elements, cut at a node
+        return simulate(impact.replace(length=2.0 * size), end_time=0.3, mesh=mesh).array("total_impulse")
+
+    small, large = impulse(100.0), impulse(200.0)
+    assert small[-1] == pytest.approx(large[-1], rel=1e-4)
+
+
+def test_far_fields_take_no_momentum_and_leave_rigid_motion_alone() -> None:
+    impact = Impact(1.0, 1.0, 20.0, 0.0, 1.0)
+    beam = HermiteBeam(ScaleFreeMesh(0.1, 1.02).nodes(10.0), 1.0, 1.0)
+    for far_field in (GridViscosity(), Sponge()):
+        bands = sum(part for _, part in far_field.dampings(beam, impact))
+        rigid = beam.interpolate(np.ones(beam.nodes.size), np.zeros(beam.nodes.size))
+        assert np.abs(product(bands, rigid)).max() < 1e-12 * np.abs(bands).max()
 
 
 def test_waves_are_back_from_the_ends_at_the_same_time_however_long_the_run() -> None:

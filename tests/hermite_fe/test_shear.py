@@ -5,8 +5,10 @@ Units half length = EI = μ = V₀ = 1; s = l_s, the shear length, g = κ_sG/E."
 import leapfrog
 import numpy as np
 import pytest
+from hermite_parts import dense
 from numpy.polynomial import Polynomial
 from numpy.polynomial.legendre import leggauss
+from scipy.linalg import eigh
 
 from bent_beam import Impact
 from bent_beam.measure.balance import balance_of
@@ -62,6 +64,18 @@ def test_a_cantilever_is_exact_at_its_nodes(s: float) -> None:
     q = beam.static(load, {0: 0.0, 1: 0.0})
     assert q[0::2] == pytest.approx(2.0 * (x**2 / 2 - x**3 / 6 + s**2 * x), rel=1e-12)
     assert q[1::2] == pytest.approx(2.0 * (x - x**2 / 2), rel=1e-12)
+
+
+@pytest.mark.parametrize("s", [0.02, 0.08])
+def test_the_lowest_frequency_of_a_clamped_beam_converges_to_timoshenko_s_fourfold_or_faster(s: float) -> None:
+    """That of ``bent_beam.modes`` fulfils the equations of bending and shear (``bent_beam/test_modes.py``)."""
+    held = Impact.whole_beam(0.5, shear_length=s, shear_ratio=G).replace(left_end="clamped", right_end="clamped")
+    exact, errors = 2.0 * np.pi * lowest_frequency(held), []
+    for elements in (12, 25, 50):
+        beam = sheared(np.linspace(-1.0, 1.0, elements + 1), s)
+        stiffness, mass = (dense(bands)[2:-2, 2:-2] for bands in (beam.stiffness(), beam.mass()))
+        errors.append(np.sqrt(eigh(stiffness, mass, eigvals_only=True)[0]) / exact - 1.0)
+    assert 0.0 < errors[2] < 1e-4 and 4.0 * errors[1] < errors[0] and 3.9 * errors[2] < errors[1]
 
 
 @pytest.mark.parametrize("change", [{}, {"acceleration": 4.0}, {"fourth_derivative": 2.0}, {"wall_stiffness": 1e4}])
