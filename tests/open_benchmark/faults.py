@@ -36,73 +36,62 @@ def springs(rng: Rng, **fault: Any) -> Fields:
     return run(rng, spring=10.0 ** rng.uniform(2.7, 3.5), **fault)
 
 
-# --- of the books ----------------------------------------------------------------------------------------------------
+# --- of the books: what is handed in instead -------------------------------------------------------------------------
 
 
-def booked(change: Callable[[Rng, Fields], None]) -> Callable[[Rng], Fields]:
+def booked(change: Callable[[Rng, Fields], Fields]) -> Callable[[Rng], Fields]:
+    """Of a sound run, with the fields that ``change`` makes of it."""
+
     def make(rng: Rng) -> Fields:
         fields = run(rng)
-        change(rng, fields)
-        return fields
+        return fields | change(rng, fields)
 
     return make
 
 
-def lost_point(rng: Rng, fields: Fields) -> None:
-    reached = np.flatnonzero(fields["node_impulse"][-1] > 0.0)
-    fields["node_impulse"][:, rng.integers(1, 0.8 * reached.size)] = 0.0
+def pushed(change: Callable[[Rng, Any], Any]) -> Callable[[Rng], Fields]:
+    """With other impulses at the nodes, which ``change`` may alter in place."""
+    return booked(lambda rng, fields: {"node_impulse": change(rng, fields["node_impulse"])})
 
 
-def lost_time(rng: Rng, fields: Fields) -> None:
-    steps = np.diff(fields["node_impulse"], axis=0)
-    start = rng.integers(10, 150)
+def lost_point(rng: Rng, push: Any) -> Any:
+    push[:, rng.integers(1, 0.8 * np.count_nonzero(push[-1] > 0.0))] = 0.0
+    return push
+
+
+def lost_time(rng: Rng, push: Any) -> Any:
+    steps, start = np.diff(push, axis=0, prepend=0.0), rng.integers(11, 151)
     steps[start : start + rng.integers(60, 120)] = 0.0
-    fields["node_impulse"][1:] = np.cumsum(steps, axis=0)
+    return np.cumsum(steps, axis=0)
 
 
-def forces(rng: Rng, fields: Fields) -> None:
-    fields["node_impulse"] = np.gradient(fields["node_impulse"], fields["tau"], axis=0)
+def middle_twice(rng: Rng, push: Any) -> Any:
+    push[:, 0] *= rng.uniform(2.0, 4.0)
+    return push
 
 
-def factor(rng: Rng, fields: Fields) -> None:
-    fields["node_impulse"] *= float(rng.choice([0.5, 2.0, 1e3, 1e-3, 1.0 / 9.81]))
+def jitter(rng: Rng, push: Any) -> Any:
+    return push * (1.0 + rng.uniform(0.01, 0.05) * rng.standard_normal((len(push), 1)))
 
 
-def sign(rng: Rng, fields: Fields) -> None:
-    fields["node_impulse"] *= -1.0
+def other_order(rng: Rng, push: Any) -> Any:
+    reached = np.flatnonzero(push[-1] > 0.0)
+    push[:, reached] = push[:, reached[::-1]]
+    return push
 
 
-def middle_twice(rng: Rng, fields: Fields) -> None:
-    fields["node_impulse"][:, 0] *= rng.uniform(2.0, 4.0)
-
-
-def jitter(rng: Rng, fields: Fields) -> None:
-    fields["node_impulse"] *= 1.0 + rng.uniform(0.01, 0.05) * rng.standard_normal((fields["tau"].size, 1))
-
-
-def stale_gaps(rng: Rng, fields: Fields) -> None:
-    fields["snap_gap"] = np.vstack([fields["snap_gap"][:1], fields["snap_gap"][:-1]])
-
-
-def stretched_places(rng: Rng, fields: Fields) -> None:
-    fields["node_x"] = fields["node_x"] * about(rng, 0.08)
-
-
-def other_order(rng: Rng, fields: Fields) -> None:
-    reached = np.flatnonzero(fields["node_impulse"][-1] > 0.0)
-    fields["node_impulse"][:, reached] = fields["node_impulse"][:, reached[::-1]]
-
-
-def other_problem(rng: Rng, fields: Fields) -> None:
+def other_problem(rng: Rng, fields: Fields) -> Fields:
     kappa = float(fields["problem"].removeprefix("leading-"))
-    fields["problem"] = f"leading-{kappa * about(rng, 0.08):.6g}"
+    return {"problem": f"leading-{kappa * about(rng, 0.08):.6g}"}
 
 
-def other_clock(rng: Rng, fields: Fields) -> None:
+def other_clock(rng: Rng, fields: Fields) -> Fields:
     slow = rng.uniform(1.05, 1.3)
-    fields["tau"], fields["snap_tau"] = slow * fields["tau"], slow * fields["snap_tau"]
+    return {name: slow * fields[name] for name in ("tau", "snap_tau")}
 
 
+STEP = 0.1 / 400  # of a sound run
+FACTORS = [0.5, 2.0, 1e3, 1e-3, 1.0 / 9.81]
 FAULTS = {
     "stiffness": Fault(lambda rng: run(rng, stiffness=about(rng)), ERRORS),
     "mass": Fault(lambda rng: run(rng, mass=about(rng)), {"momentum"}, "momentum"),
@@ -125,16 +114,18 @@ FAULTS = {
     "middle_too_stiff": Fault(lambda rng: run(rng, middle=rng.uniform(0.5, 1.2)), ROUGH),
     "coarse": Fault(lambda rng: run(rng, size=rng.uniform(0.1, 0.15)), ROUGH | ERRORS),
     "unstable": Fault(lambda rng: run(rng, theta=rng.uniform(0.485, 0.495), grid=0.0), {"energy"}, "energy_gained"),
-    "lost_point": Fault(booked(lost_point), {"momentum", "noise_in_space"}, "momentum"),
-    "lost_time": Fault(booked(lost_time), {"momentum"}, "momentum"),
-    "forces": Fault(booked(forces), {"impulse_falls"}),
-    "factor": Fault(booked(factor), {"momentum"}, "momentum"),
-    "sign": Fault(booked(sign), {"impulse_falls"}),
-    "middle_twice": Fault(booked(middle_twice), {"momentum"}, "momentum"),
-    "jitter": Fault(booked(jitter), {"noise_in_time", "impulse_falls", "pull"}),
-    "stale_gaps": Fault(booked(stale_gaps), {"motion"}),
-    "stretched_places": Fault(booked(stretched_places), {"push_at_a_gap", "distribution", *ERRORS}),
-    "other_order": Fault(booked(other_order), {"push_at_a_gap", "distribution"}),
+    "lost_point": Fault(pushed(lost_point), {"momentum", "noise_in_space"}, "momentum"),
+    "lost_time": Fault(pushed(lost_time), {"momentum"}, "momentum"),
+    "forces": Fault(pushed(lambda rng, push: np.gradient(push, STEP, axis=0)), {"impulse_falls"}),
+    "factor": Fault(pushed(lambda rng, push: push * rng.choice(FACTORS)), {"momentum"}, "momentum"),
+    "sign": Fault(pushed(lambda rng, push: -push), {"impulse_falls"}),
+    "middle_twice": Fault(pushed(middle_twice), {"momentum"}, "momentum"),
+    "jitter": Fault(pushed(jitter), {"noise_in_time", "impulse_falls", "pull"}),
+    "stale_gaps": Fault(booked(lambda rng, f: {"snap_gap": f["snap_gap"][[0, *range(9)]]}), {"motion"}),
+    "stretched_places": Fault(
+        booked(lambda rng, f: {"node_x": f["node_x"] * about(rng, 0.08)}), {"push_at_a_gap", "distribution", *ERRORS}
+    ),
+    "other_order": Fault(pushed(other_order), {"push_at_a_gap", "distribution"}),
     "other_problem": Fault(booked(other_problem), {"motion", "momentum", "push_at_a_gap", "penetration", *ERRORS}),
     "other_clock": Fault(booked(other_clock), {"motion", "momentum"}),
 }  # fmt: skip

@@ -102,11 +102,12 @@ def test_a_result_without_numbers_is_kept_with_its_reason_and_not_scored():
 def test_three_results_with_the_very_same_numbers_are_no_resolutions_and_without_two_that_agree_not_clean():
     exact = exact_fields()
     J = exact["J"] + 1e-4 * np.sin(300.0 * TAU) * np.sqrt(TAU)
-    same, near, far = (
+    same, near, honest, far = (
         [scored("leading-0.5", tau=TAU, J=k * J, Jm=k * exact["Jm"]) for k in factors]
-        for factors in ((1.0, 1.0, 1.0), (1.0, 1.0 + 1e-9, 1.0 + 2e-9), (0.992, 1.004, 1.0165))
+        for factors in ((1.0, 1.0, 1.0), (1.0, 1.0 + 1e-9, 1.0 + 2e-9), (1.0, 1.0001, 1.003), (0.992, 1.004, 1.0165))
     )
-    assert {one.diagnosis[0].name for one in resolution_ignored(same[:2])} == {"clean"}
+    for several in (same[:2], honest):
+        assert {one.diagnosis[0].name for one in resolution_ignored(several)} == {"clean"}
     for three in (same, near):
         flagged = resolution_ignored(three)
         assert {one.symptoms[0].name for one in flagged} == {"copies"} and not any(one.diagnosis for one in flagged)

@@ -1,13 +1,12 @@
 """An adapter that misbehaves is a row with a reason; the others go on, and what was done is not done again."""
 
 import os
-import subprocess
 import sys
-import time
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from called import started
 from processes import ended, until
 
 from bent_beam.errors import InputError
@@ -77,22 +76,14 @@ def test_a_hang_is_a_timeout_and_takes_its_children_along(tmp_path):
 
 
 def test_a_killed_command_takes_its_adapter_and_its_folder_along(tmp_path):
-    adapter(tmp_path, "slow", "import os, time\nopen('pid', 'w').write(str(os.getpid()))\ntime.sleep(60)")
-    program = f"""
-from pathlib import Path
-from bent_beam_programs.open_benchmark.adapter import Adapter
-from bent_beam_programs.open_benchmark.problem import problem
-from bent_beam_programs.open_benchmark.running import Limits, run_adapter
-slow = Adapter("slow", Path({str(tmp_path / "slow.py")!r}))
-run_adapter(slow, problem("point-2"), "coarse", Path("kept/r.npz"), Limits())
-"""
-    command = subprocess.Popen([sys.executable, "-c", program], cwd=tmp_path)
-    while not (pids := [f.read_text() for f in tmp_path.glob("kept/.run-*/pid") if f.read_text()]):
-        assert command.poll() is None
-        time.sleep(0.02)
-    command.kill()
-    command.wait()
-    until(lambda: ended(int(pids[0])) and not list(tmp_path.glob("kept/.run-*")))
+    slow = adapter(tmp_path, "slow", "import os, time\nopen('pid', 'w').write(str(os.getpid()))\ntime.sleep(60)")
+    asked = ("benchmark", "--adapter", slow.file, "--problem", "point-2", "--out", "out")
+    process, places = started(*asked, cwd=tmp_path), "out/results/slow/.run-*"
+    until(lambda: any(file.read_text() for file in tmp_path.glob(f"{places}/pid")))
+    (pid,) = (int(file.read_text()) for file in tmp_path.glob(f"{places}/pid"))
+    process.kill()
+    process.communicate()
+    until(lambda: ended(pid) and not list(tmp_path.glob(places)))
 
 
 def test_what_a_full_disk_may_have_spoilt_and_what_has_another_helper_is_run_again(tmp_path):
