@@ -14,10 +14,9 @@ import subprocess
 import sys
 import sysconfig
 import tomllib
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache
-from importlib.metadata import packages_distributions, version
+from importlib.metadata import distributions
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -26,7 +25,6 @@ from platformdirs import user_cache_path
 
 from bent_beam.errors import InputError, nearest
 from bent_beam.versions import versions
-from bent_beam_programs.open_benchmark.problem import Problem
 from comparison.store import PACKAGES, digest_of_files, installed, source_digest
 
 ADAPTERS = Path(__file__).parent / "adapters"
@@ -56,10 +54,6 @@ class Adapter:
     chosen: str = "not stated"
     manual: tuple[Sequence[str], ...] = ()
     resolutions: tuple[str, ...] = RESOLUTIONS
-
-    def takes(self, asked: Problem) -> bool:
-        """Whether the code is asked this problem at all."""
-        return not self.kinds or asked.kind in self.kinds
 
     @property
     def folder(self) -> Path:
@@ -114,7 +108,7 @@ class Adapter:
         if self.host:
             text += repr((source_digest(), versions())).encode()
         elif self.file.suffix == ".py" and not self.packages:  # with the modules beside it
-            text += repr(behind([self.file], self.file.parent)).encode()
+            text += repr(behind(self.file)).encode()
         return hashlib.sha256(self.file.read_bytes() + text).hexdigest()
 
 
@@ -180,25 +174,23 @@ def install(adapter: Adapter) -> str:
 
 
 CODE = (".py", ".so", ".pyd")
-_distributions = cache(packages_distributions)  # to ask takes a second where many are installed
 
 
-def behind(files: Iterable[Path], folder: Path) -> list[str]:
-    """What Python ``files`` import, and what that imports in turn: the digest of each module or package in ``folder``
-    or elsewhere on the path, of an installed one its version. What is imported by a computed name is not seen."""
-    waiting, seen, found = list(files), {"__main__", *PACKAGES, *sys.stdlib_module_names}, set()
-    places = installed()
+def behind(program: Path) -> list[str]:
+    """What a Python program may depend on: the versions of all that is installed, and the digest of each other module
+    or package, beside it or elsewhere on the path, that it or these import. What is imported by a computed name is not
+    seen."""
+    waiting, seen, places = [program], {"__main__", *PACKAGES, *sys.stdlib_module_names}, installed()
+    found = {f"{one.name} {one.version}" for one in distributions()}
     while waiting:
         for name in _imported_by(waiting.pop()) - seen:
             seen.add(name)
-            origin = next((f for f in (folder / f"{name}.py", folder / name / "__init__.py") if f.is_file()), None)
+            beside = (program.with_name(f"{name}.py"), program.with_name(name) / "__init__.py")
+            origin = next(filter(Path.is_file, beside), None)
             if origin is None:
                 spec = find_spec(name)
                 origin = None if spec is None or not spec.has_location else Path(str(spec.origin))
-            if origin is None:
-                continue
-            if any(origin.resolve().is_relative_to(place) for place in places):
-                found |= {f"{one} {version(one)}" for one in _distributions().get(name, ())}
+            if origin is None or any(origin.resolve().is_relative_to(place) for place in places):
                 continue
             package = origin.parent.rglob("*") if origin.stem == "__init__" else ()
             mine = [file for file in package if file.suffix in CODE] or [origin]
@@ -210,13 +202,9 @@ def behind(files: Iterable[Path], folder: Path) -> list[str]:
 def _imported_by(file: Path) -> set[str]:
     """Top-level names of the modules that a file imports."""
     try:
-        tree = ast.walk(ast.parse(file.read_bytes())) if file.suffix == ".py" else ()
+        nodes = [*ast.walk(ast.parse(file.read_bytes()))] if file.suffix == ".py" else []
     except (SyntaxError, ValueError):
         return set()
-    names: set[str] = set()
-    for node in tree:
-        if isinstance(node, ast.Import):
-            names |= {one.name.partition(".")[0] for one in node.names}
-        elif isinstance(node, ast.ImportFrom) and not node.level:
-            names.add(str(node.module).partition(".")[0])
-    return names
+    names = {one.name for node in nodes if isinstance(node, ast.Import) for one in node.names}
+    names |= {str(node.module) for node in nodes if isinstance(node, ast.ImportFrom) and not node.level}
+    return {name.partition(".")[0] for name in names}

@@ -105,9 +105,8 @@ def campaign(
     out: Path,
     *,
     limits: Limits | None = None,
-    resolutions: Sequence[str] | None = None,
     seed: int | None = None,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Callable[[int, int], None] = lambda done, total: None,
 ) -> list[Row]:
     """Do the runs that are missing, and score all. A first-order problem brings its base along.
 
@@ -116,16 +115,11 @@ def campaign(
     limits = limits or Limits()
     drawn_ids = _with_bases(drawn(problems, seed)) if seed is not None else []
     asked = [problem(name) for name in [*_with_bases(problems), *drawn_ids]]
-    runs = [
-        (adapter, item, resolution)
-        for adapter, item in product(adapters, asked)
-        for resolution in resolutions or adapter.resolutions
-        if adapter.takes(item)
-    ]
+    pairs = [(one, item) for one, item in product(adapters, asked) if not one.kinds or item.kind in one.kinds]
+    runs = [(one, item, resolution) for one, item in pairs for resolution in one.resolutions]
     digests = {adapter.name: adapter.digest() for adapter in adapters}
     for done, (adapter, item, resolution) in enumerate(runs):
-        if progress:
-            progress(done, len(runs))
+        progress(done, len(runs))
         kept = _kept(out, adapter.name, item.id, resolution)
         decisive = json.dumps([digests[adapter.name], problem_text(item), resolution, asdict(limits)])
         key, old = hashlib.sha256(decisive.encode()).hexdigest(), _stored_row(kept)

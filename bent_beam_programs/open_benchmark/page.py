@@ -27,8 +27,8 @@ from bent_beam_programs.open_benchmark.campaign import Row
 from bent_beam_programs.open_benchmark.judgement import LOADED, Score
 from bent_beam_programs.open_benchmark.problem import LADDER, Problem, problem
 
-MEASURES = {"lambda0": "λ₀", "r0": "r₀", "lambda1": "λ₁", "r1": "r₁", "restitution": "e", "impulse_error": "J(t)"}
-MEASURES |= {"peak_force": "the largest force", "peak_time": "its time"}
+MEASURES = {"lambda0": "λ₀", "r0": "r₀", "lambda1": "λ₁", "r1": "r₁", "restitution": "e", "impulse_error": "J(t)",
+            "peak_force": "the largest force", "peak_time": "its time"}  # fmt: skip
 MARKS = "osD^vP*<>hp8d"
 SMALLEST = 1e-7  # relative error that a figure still shows
 TEMPLATES = Path(__file__).parent / "templates"
@@ -148,13 +148,14 @@ def write_page(
     about = about or document(rows, adapters)
     solvers = list(dict.fromkeys([*(a.name for a in adapters), *(row.solver for row in rows)]))
     tables = {name: [row for row in rows if row.table == name] for name in ("run here", "self-declared")}
+    places = {name: name.replace(" ", "-") for name in tables}
     loader = jinja2.Environment(
         loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True, lstrip_blocks=True
     )
     html = loader.get_template("benchmark.html.j2").render(
         tables={
             table: [
-                _sheet(own, name, solvers, out / "sheets" / _file_name(table))
+                _sheet(own, name, solvers, out / "sheets" / places[table])
                 for name in dict.fromkeys(row.problem for row in own)
             ]
             for table, own in tables.items()
@@ -170,13 +171,9 @@ def write_page(
     for name, own in tables.items():
         for mesh, given in (("", False), ("-given", True)):
             shown = [row for row in own if (row.resolution == GIVEN) == given]
-            write_atomically(out / f"errors-{_file_name(name)}{mesh}.md", errors_table(shown, solvers))
+            write_atomically(out / f"errors-{places[name]}{mesh}.md", errors_table(shown, solvers))
     write_atomically(out / "index.html", html)
     return out / "index.html"
-
-
-def _file_name(table: str) -> str:
-    return table.replace(" ", "-")
 
 
 class Property(NamedTuple):

@@ -37,7 +37,6 @@ def test_a_result_that_cannot_be_read_is_exit_code_2_and_no_score(tmp_path):
     assert document["outcome"] == "invalid" and document["r0"] is None and document["diagnosis"] == []
 
 
-@pytest.mark.usefixtures("alone")
 def test_benchmark_writes_a_page_for_an_adapter_of_ones_own(tmp_path):
     exact, file, out = written(tmp_path, 2.0, "exact.npz"), tmp_path / "mine.py", tmp_path / "out"
     file.write_text(f"import shutil, sys; shutil.copy({str(exact)!r}, sys.argv[2])")

@@ -7,7 +7,7 @@ import sys
 import pytest
 from fences import snippet
 
-from bent_beam_programs.open_benchmark.adapter import chosen_adapters
+from bent_beam_programs.open_benchmark.adapter import Adapter
 from bent_beam_programs.open_benchmark.campaign import campaign
 from bent_beam_programs.open_benchmark.reading import load_result
 from bent_beam_programs.open_benchmark.running import Limits
@@ -22,8 +22,8 @@ def test_the_sixty_lines_converge(tmp_path):
     assert not re.search(r"import (?!json|sys|time|tomllib|numpy)", source)
     file = tmp_path / "mine.py"
     file.write_text(source)
-    two, once = ["coarse", "medium"], Limits(repeats=1)
-    rows = campaign(chosen_adapters(own=[file]), ["leading-0.5"], tmp_path / "out", resolutions=two, limits=once)
+    mine = Adapter("mine", file, resolutions=("coarse", "medium"))
+    rows = campaign([mine], ["leading-0.5"], tmp_path / "out", limits=Limits(repeats=1))
     coarse, medium = (row.score for row in rows)
     assert medium.outcome == "completed"
     for name in ("lambda0", "r0"):

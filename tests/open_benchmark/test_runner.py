@@ -33,7 +33,7 @@ np.savez(sys.argv[2], outcome="completed", problem="point-2", metadata="{}", tau
 def adapter(tmp_path, name, source):
     file = tmp_path / f"{name}.py"
     file.write_text(source)
-    return Adapter(name, file)
+    return Adapter(name, file, resolutions=("coarse",))
 
 
 def ran(one, tmp_path, repeats=1, **limits):
@@ -89,23 +89,22 @@ def test_a_killed_command_takes_its_adapter_and_its_folder_along(tmp_path):
 def test_what_a_full_disk_may_have_spoilt_and_what_has_another_helper_is_run_again(tmp_path):
     one = adapter(tmp_path, "torn", GOOD + "open(sys.argv[2], 'wb').write(b'PK')\nimport helper")
     for _ in range(2):
-        rows = campaign([one], ["point-2"], tmp_path / "out", resolutions=["coarse"])
+        rows = campaign([one], ["point-2"], tmp_path / "out")
     assert rows[0].score.outcome == "invalid" and (tmp_path / "log").read_text().split() == ["coarse"] * 2
     before = one.digest()
     (tmp_path / "helper.py").write_text("h = 1")
     assert one.digest() != before
 
 
-@pytest.mark.usefixtures("alone")
 def test_one_bad_adapter_is_a_row_and_only_what_changed_is_run_again(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     fine = adapter(tmp_path, "good", GOOD)
     bad = adapter(tmp_path, "bad", "raise SystemExit('cannot')")
-    none = Adapter("none", fine.file, install=("nothing==1",), environment="not-there", module="nothing")
+    none = replace(fine, name="none", install=("nothing==1",), environment="not-there", module="nothing")
 
     def run():
         # relative to where one stands
-        return campaign([bad, none, fine], ["point-2"], Path("out"), limits=Limits(repeats=1), resolutions=["coarse"])
+        return campaign([bad, none, fine], ["point-2"], Path("out"), limits=Limits(repeats=1))
 
     run()
     rows = run()
@@ -148,12 +147,11 @@ np.savez(sys.argv[2], outcome="completed", problem=problem["id"], metadata="{}",
 """
 
 
-@pytest.mark.usefixtures("alone")
 def test_only_nodal_histories_and_gaps_of_drawn_problems_stand_in_the_table_of_runs(tmp_path):
     names = {"clean": NODES, "declared": NODES.replace("**nodes", "**declared")}
     adapters = [adapter(tmp_path, name, source) for name, source in names.items()]
     once = Limits(repeats=1)
-    rows = campaign(adapters, ["point-2"], tmp_path / "out", limits=once, resolutions=["coarse"], seed=4)
+    rows = campaign(adapters, ["point-2"], tmp_path / "out", limits=once, seed=4)
     tables = {(row.solver, row.problem == "point-2"): row.declared_because for row in rows}
     assert tables == {
         ("clean", True): "a problem whose answer is published",
