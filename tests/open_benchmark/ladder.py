@@ -68,51 +68,45 @@ def _of_system(name: str, run: Trajectory, floor: float = 0.0) -> Found:
 
 
 def _ball(scheme: Scheme, refine: int) -> Found:
-    """A unit mass dropped from ½ with restitution 1: ten impacts by t = 20."""
+    """A unit mass dropped from ½ under unit gravity with restitution 1: ten impacts by t = 20."""
     _, given, end = LADDER["ball"]
-    one = np.ones((1, 1))
-    weight = given["mass"] * given["gravity"]
-    contacts = ContactRows(np.array([[0]]), one, np.zeros(1))
-    system = System(mass=given["mass"] * one, stiffness=0.0 * one, load=-weight * one, contacts=contacts)
+    system = System(mass=[[1.0]], stiffness=[[0.0]], load=[[-1.0]], contacts=ContactRows([[0]], [[1.0]], [0.0]))
     start, step = np.array([given["height"]]), 0.0137 / refine  # steps that do not divide the flights
-    law, save = ContactLaw(given["restitution"]), np.linspace(0, end, 1001)
+    law, save = ContactLaw(given["restitution"]), np.linspace(0.0, end, 1001)
     run = integrate(system, start, np.zeros(1), scheme(step), end, law=law, save=save)
-    return _of_system("ball", run, weight * given["height"])
+    return _of_system("ball", run, given["height"])
 
 
-def _line(cells: int, tangent: float, line: float) -> tuple[Array, Array]:
-    """Mass (lumped) and stiffness of linear elements in a row of length 1, banded."""
-    mass = np.full((1, cells + 1), line / cells)
-    stiffness = np.full((2, cells + 1), -tangent * cells)
+def _line(refine: int) -> tuple[Array, Array, Array]:
+    """Places, lumped mass and stiffness of linear elements of unit stiffness and mass in a row of length 1, banded."""
+    cells = CELLS * refine
+    mass, stiffness = np.full((1, cells + 1), 1.0 / cells), np.full((2, cells + 1), -float(cells))
     stiffness[0] *= -2.0
     stiffness[1, -1] = 0.0
     mass[0, [0, -1]] /= 2.0
     stiffness[0, [0, -1]] /= 2.0
-    return mass, stiffness
+    return np.linspace(0.0, 1.0, cells + 1), mass, stiffness
 
 
 def _bar(scheme: Scheme, refine: int) -> Found:
-    """A bar of unit length, stiffness and mass that flies at the wall, in contact for 2L/c, off again as it came."""
+    """A bar that flies at the wall, in contact for 2L/c, off again as it came."""
     _, given, end = LADDER["bar"]
-    cells = CELLS * refine
-    mass, stiffness = _line(cells, given["axial_stiffness"], given["mass_per_length"])
-    contacts = ContactRows(np.array([[0]]), np.ones((1, 1)), np.array([given["gap"]]))
-    save, rest = np.linspace(0.0, end, 601), np.zeros(cells + 1)
-    system = System(mass=mass, stiffness=stiffness, contacts=contacts)
-    run = integrate(system, rest, rest - given["velocity"], scheme(COURANT / cells), end, save=save)
+    x, mass, stiffness = _line(refine)
+    system = System(mass=mass, stiffness=stiffness, contacts=ContactRows([[0]], [[1.0]], [given["gap"]]))
+    save = np.linspace(0.0, end, 601)
+    run = integrate(system, 0.0 * x, 0.0 * x - given["velocity"], scheme(COURANT * x[1]), end, save=save)
     return _of_system("bar", run)
 
 
 def _string(scheme: Scheme, refine: int) -> Found:
     """A string that lands all at once, elastically, four times."""
     _, given, end = LADDER["string"]
-    cells = CELLS * refine
-    mass, stiffness = _line(cells, given["tension"], given["mass_per_length"])
-    contacts = ContactRows(np.arange(1, cells)[:, None], np.ones((cells - 1, 1)), np.zeros(cells - 1))
-    system = System(mass=mass, stiffness=stiffness, contacts=contacts, supports=(0, cells))
-    x, save = np.linspace(0.0, 1.0, cells + 1), np.linspace(0.0, end, 801)
-    start = 4.0 * given["height"] * x * (1.0 - x)
-    run = integrate(system, start, 0.0 * x, scheme(COURANT / cells), end, law=ContactLaw(1.0), save=save)
+    x, mass, stiffness = _line(refine)
+    inner = np.arange(1, x.size - 1)[:, None]
+    contacts = ContactRows(inner, np.ones(inner.shape), np.zeros(inner.size))
+    system = System(mass=mass, stiffness=stiffness, contacts=contacts, supports=(0, x.size - 1))
+    start, save = 4.0 * given["height"] * x * (1.0 - x), np.linspace(0.0, end, 801)
+    run = integrate(system, start, 0.0 * x, scheme(COURANT * x[1]), end, law=ContactLaw(1.0), save=save)
     return _of_system("string", run)
 
 

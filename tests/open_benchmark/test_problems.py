@@ -44,7 +44,8 @@ def test_the_schemas_are_frozen():
         assert known.get("impulse", {}).keys() <= {"variable", "breaks", "coefficients"}
 
 
-SOME = ("leading-0.5", "first-0.5--0.5-0-0-1", "bouncing-bar", "elastic-stop-18000")
+SOME = ("leading-0.5", "first-0.5--0.5-0-0-1", "chattering-ball", "bar", "released-bar", "bouncing-bar", "string")
+SOME += ("elastic-stop-18000",)
 
 
 @pytest.mark.parametrize("names", [SOME, pytest.param((), marks=pytest.mark.verify)], ids=["some", "all"])
@@ -102,8 +103,8 @@ def test_the_resting_zone_carries_what_statics_says():
         "first-0.4-0-0-0-1": 0.4,
         "first-0.4-1-2-0": 3.0,
     }
-    for asked, load in ((problem(name), load) for name, load in loads.items()):
-        assert asked.uniform_load == pytest.approx(load * asked.epsilon), asked.id
+    for name, load in loads.items():
+        assert problem(name).uniform_load == pytest.approx(load * problem(name).epsilon), name
 
 
 @pytest.mark.parametrize(
@@ -123,23 +124,6 @@ def test_an_elastic_problem_has_its_largest_force_within_its_record_or_is_refuse
     for name in ("elastic-stop-1e3", "elastic-stop-1e12", "elastic-wall-1e-9-0", "elastic-wall-0.5-50"):
         with pytest.raises(InputError, match=r"must lie in \["):
             problem(name)
-
-
-@pytest.mark.parametrize(
-    ("name", "momentum"),
-    [
-        ("ball", 20.0),  # ten impacts, each reverses unit speed of a unit mass
-        ("chattering-ball", 4.0),  # falls from rest and rests at the end: its weight all the time
-        ("bar", 2.0),  # arrives and leaves at unit speed
-        ("released-bar", 1.5),  # a reaction of ½ for three units of time
-        ("bouncing-bar", 2.0 * 100.0 * 16.0 / 3.0),  # its weight over two periods
-        ("string", 16.0),  # four landings of −2∫w_t dx = 4 each
-    ],
-)
-def test_the_ladder_gives_the_momentum_that_it_has(name, momentum):
-    asked = problem(name)
-    exact = reference(asked).impulse
-    assert exact is not None and exact(np.array([asked.end_time])) == pytest.approx([momentum])
 
 
 # --- whole impacts, within both error bars and a tolerance -----------------------------------------------------------
