@@ -145,13 +145,13 @@ def test_a_restitution_is_held_against_its_reference_within_bars_and_tolerance(n
     exact = reference(asked)
     value, error = exact["restitution"], exact.errors["restitution"]
     assert value is not None and 0.0 < error < 1e-3
-    right = score(left_with(name, value + 0.004))
+    right = score(left_with(name, 1.008 * value))
     assert right.outcome == "completed" and right.measured["restitution"].theory == value
     assert right.reference["restitution"] == {"error": error, "source": exact.source} and "python -m" in exact.source
-    wrong = score(left_with(name, value - 0.03))
+    wrong = score(left_with(name, 0.985 * value))
     assert wrong.outcome == "completed, off" and "reference" in str(wrong.reason)
     # one that is still changing says so in its own error bar
-    unsure = score(left_with(name, value - 0.03, drift=0.03))
+    unsure = score(left_with(name, 0.985 * value, drift=0.03))
     assert "within its bar" in unsure.outcome
     assert unsure.measured["restitution"].bar == pytest.approx(0.03, rel=0.05)
 
