@@ -24,8 +24,8 @@ class Fault(NamedTuple):
     causes: str = ""
 
 
-def about(rng: Rng, least: float = 0.04, most: float = 0.2) -> float:
-    return float(1.0 + rng.choice([-1.0, 1.0]) * rng.uniform(least, most))
+def about(rng: Rng, least: float = 0.04) -> float:
+    return float(1.0 + rng.choice([-1.0, 1.0]) * rng.uniform(least, 0.2))
 
 
 def run(rng: Rng, **fault: Any) -> Fields:

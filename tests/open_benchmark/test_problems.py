@@ -107,23 +107,20 @@ def test_the_resting_zone_carries_what_statics_says():
         assert problem(name).uniform_load == pytest.approx(load * problem(name).epsilon), name
 
 
-@pytest.mark.parametrize(
-    "name", ["", "leading-1.5", "leading-0", "leading-nan", "first-0.5-0-0-0", "point-0.5", "bounce-1", "x" * 999]
-)
+NONE = ["", "leading-1.5", "leading-0", "leading-nan", "first-0.5-0-0-0", "point-0.5", "bounce-1", "x" * 999]
+NONE += ["elastic-stop-1e3", "elastic-stop-1e12", "elastic-wall-1e-9-0", "elastic-wall-0.5-50"]  # beyond the theory
+
+
+@pytest.mark.parametrize("name", NONE)
 def test_an_id_that_none_has_is_refused_in_one_line(name):
     with pytest.raises(InputError, match="problem: ") as error:
         problem(name)
     assert "\n" not in str(error.value)
 
 
-def test_an_elastic_problem_has_its_largest_force_within_its_record_or_is_refused():
-    """A softer stop is still being pressed when its record ends, and the theory of a wall has its range."""
-    for name in ("elastic-stop-3e3", "elastic-wall-1e-6-5"):
-        asked = problem(name)
-        assert 0.0 < computed(asked)["values"]["peak_time"] < asked.end_time
-    for name in ("elastic-stop-1e3", "elastic-stop-1e12", "elastic-wall-1e-9-0", "elastic-wall-0.5-50"):
-        with pytest.raises(InputError, match=r"must lie in \["):
-            problem(name)
+@pytest.mark.parametrize("name", ["elastic-stop-3e3", "elastic-wall-1e-6-5"])  # a softer stop is pressed even later
+def test_an_elastic_problem_has_its_largest_force_within_its_record(name):
+    assert 0.0 < computed(problem(name))["values"]["peak_time"] < problem(name).end_time
 
 
 # --- whole impacts, within both error bars and a tolerance -----------------------------------------------------------
