@@ -15,7 +15,6 @@ from here import CASES
 from strangers import Plain, Unlabelled
 
 from bent_beam import method as methods
-from bent_beam.files import write_atomically
 from bent_beam.measure.reduction import peak_moment
 from comparison import store as store_module
 from comparison.command_line import __main__ as start
@@ -28,12 +27,8 @@ from hermite_fe import HermiteFE
 from hermite_fe.contacts import NodeContact
 
 
-def ended():
-    raise SystemExit("bye")
-
-
 NO_METHODS = {
-    "exits when loaded": ended,
+    "exits when loaded": lambda: sys.exit("bye"),
     "is no dataclass": lambda: SimpleNamespace,
     "has no label": lambda: Unlabelled,
 }
@@ -123,35 +118,13 @@ def test_an_interrupt_before_anything_has_begun_is_one_line(monkeypatch, capsys)
     assert capsys.readouterr().err == "error: interrupted; nothing had begun\n"
 
 
-SWALLOWED = """
-import os, signal, time
-from comparison.command_line import app
-
-def simulate(**_):
-    try:
-        os.kill(os.getpid(), signal.SIGINT)
-    except KeyboardInterrupt:
-        time.sleep(60)
-
-app.app, app.PATIENCE = simulate, 0.2
-app.main(["simulate"])
-"""
+DIGITS = ["theory --kappa-over-nu 1_0", "theory --kappa-over-nu=９", "theory --kappa-over-nu 2 --alpha ٣"]
+FILES = ["predict 2026_11", "bounce 2026_11.toml --out 2026_11", "bounce c.toml --out=1_0"]
 
 
-def test_an_interrupt_that_a_solver_swallows_comes_again():
-    process = started(program=SWALLOWED)
-    said = process.communicate(timeout=30)[1]
-    assert process.returncode == 130 and said.count("\n") == 1, said
-
-
-@pytest.mark.parametrize("words", ["--kappa-over-nu 1_0", "--kappa-over-nu=９", "--kappa-over-nu 2 --alpha ٣"])
-def test_a_number_is_written_with_digits(words):
-    assert "plain number" in refused("theory", *words.split())
-
-
-@pytest.mark.parametrize("words", ["predict 2026_11", "bounce 2026_11.toml --out 2026_11", "bounce c.toml --out=1_0"])
-def test_a_file_may_be_called_like_a_number(words) -> None:
-    assert "no such file" in refused(*words.split())
+@pytest.mark.parametrize("words", DIGITS + FILES)
+def test_a_number_is_written_with_digits_and_a_file_may_be_called_like_one(words):
+    assert ("plain number" if words in DIGITS else "no such file") in refused(*words.split())
 
 
 def test_two_histories_of_one_name_are_two_pictures(monkeypatch):
@@ -216,12 +189,6 @@ def test_a_program_that_does_not_load_costs_its_own_command(monkeypatch, capsys)
     app.add_programs()
     app.add_programs.cache_clear()
     assert "'theirs' is installed but does not load (ModuleNotFoundError" in capsys.readouterr().err
-
-
-def test_a_file_follows_a_link_and_loses_no_text_to_a_surrogate(tmp_path):
-    (tmp_path / "link").symlink_to(tmp_path / "there")
-    write_atomically(tmp_path / "link", "a\udc80b")
-    assert (tmp_path / "link").is_symlink() and (tmp_path / "there").read_text() == "a\\udc80b"
 
 
 def test_a_reading_of_somebody_s_own_is_kept_with_its_code(tmp_path, monkeypatch):

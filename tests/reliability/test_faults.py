@@ -133,13 +133,15 @@ def test_a_full_disk_leaves_what_was_there_and_costs_the_store_no_answer(tmp_pat
     assert file.read_text() == "old" and [f.name for f in tmp_path.iterdir()] == ["a.json"]
 
 
-def test_a_file_has_the_rights_that_the_user_gives(tmp_path):
+def test_a_file_follows_a_link_has_the_rights_that_the_user_gives_and_loses_no_text_to_a_surrogate(tmp_path):
+    (tmp_path / "link").symlink_to(tmp_path / "there")
     mask = os.umask(0o027)
     try:
-        write_atomically(tmp_path / "a.json", "text")
+        write_atomically(tmp_path / "link", "a\udc80b")
     finally:
         os.umask(mask)
-    assert (tmp_path / "a.json").stat().st_mode & 0o777 == 0o640
+    assert (tmp_path / "link").is_symlink() and (tmp_path / "there").read_text() == "a\\udc80b"
+    assert (tmp_path / "there").stat().st_mode & 0o777 == 0o640
 
 
 @pytest.mark.parametrize("out", ["/proc/history.nc", "/dev/null/x/history.nc", "/dev/null", "/dev", "pipe"])

@@ -67,11 +67,12 @@ WRITE = """
     files.os.fsync = slowly
     files.write_atomically(Path("out/beam.toml"), "text")
 """
-LOADS = """
+SWALLOWS = """
+    app.PATIENCE = 0.2
     try:
         slowly(None)
     except KeyboardInterrupt:
-        raise ImportError("initialization failed")
+        {}
 """
 
 
@@ -136,9 +137,10 @@ def test_a_file_that_is_being_written_is_whole_or_not_there(how, tmp_path):
     assert list((tmp_path / "out").iterdir()) == []
 
 
-def test_a_library_that_is_interrupted_while_it_loads_is_no_missing_library(tmp_path):
-    """Exudyn says that its module could not be imported."""
-    process = at_work(A_COMMAND.format(body=LOADS, name="new"), tmp_path)
+@pytest.mark.parametrize("then", ['raise ImportError("initialization failed")', "time.sleep(60)"])
+def test_an_interrupt_that_a_library_or_a_solver_swallows_is_told_all_the_same(then, tmp_path):
+    """Exudyn says that its module could not be imported, where it is interrupted while it loads."""
+    process = at_work(A_COMMAND.format(body=SWALLOWS.format(then), name="simulate"), tmp_path)
     assert "interrupted" in interrupted(process, os.kill, signal.SIGINT)
 
 
