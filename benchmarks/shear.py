@@ -49,7 +49,6 @@ def peak(kappa_over_nu: float, wall_time: float, element: float, ratio: float) -
     """Largest force on a wall of t_k = ``wall_time`` over that without shear."""
     f = peak_force(kappa_over_nu)
     found = wall_peaks(run(kappa_over_nu, 1.6 * f.time * wall_time, element, ratio, wall_time))
-    assert found is not None
     return found.force * np.sqrt(wall_time) / f.value
 
 

@@ -1,8 +1,7 @@
 """The cost of a time step, as a multiple of what a plain code of the same size cannot do without, taken in turn: one
 compiled LDLᵀ at half bandwidth 3, with constant steps its substitutions alone, as the matrix stays.
 
-Ratios are medians of pairs, so that other work on the machine weighs on both alike. A call takes some steps, as between
-two saved instants.
+Ratios are medians of pairs, so that other work on the machine weighs on both alike.
 """
 
 from __future__ import annotations
@@ -15,14 +14,12 @@ from itertools import product
 from typing import Any
 
 from benchmarks.record import Row
-from benchmarks.timing import plain_step, prepared_step
+from benchmarks.timing import STEPS, plain_step, prepared_step
 from hermite_fe.contacts import MeanContact, NodeContact
 from hermite_fe.integrators import MoreauJean, NonsmoothGeneralizedAlpha, SignoriniPosition
 
 SIZES = (500, 1_000, 2_000, 5_000, 10_000, 20_000)
 ROUNDS = 60
-STEPS = 8  # a call
-START = 0.06  # t*; growing steps grow from 0.05 on
 SCHEMES = (  # goals of constant and of growing steps
     ("Moreau–Jean", MoreauJean(), (5.0, 4.0)),
     ("Signorini", SignoriniPosition(), (5.0, 4.0)),
@@ -63,9 +60,9 @@ def measure() -> Iterator[Row]:
             label = f"{scheme}{beam}, {'growing' if growing else 'constant'}"
             ratios, seconds = [], []
             for nodes in sizes:
-                step = prepared_step(nodes, integrator, growing=growing, start=START, steps=STEPS, **parts)
+                step = prepared_step(nodes, integrator, growing=growing, **parts)
                 step()
-                unit = plain_step(nodes, factors=growing, steps=STEPS)
+                unit = plain_step(nodes, factors=growing)
                 ratio, shortest = paired(step, unit, max(10, min(ROUNDS, 200_000 // nodes)))
                 ratios.append(round(ratio, 4))
                 seconds.append(float(f"{shortest:.3g}"))

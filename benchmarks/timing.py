@@ -1,8 +1,4 @@
-"""One time step, and plain LDLᵀ of a matrix of the same size, ready to be timed.
-
-step = prepared_step(4000)          # call it: takes one whole step, active set included
-yardstick = plain_step(4000, factors=True)
-"""
+"""Time steps, and plain LDLᵀ of a matrix of the same size, ready to be timed."""
 
 from __future__ import annotations
 
@@ -17,13 +13,14 @@ from bent_beam.meshes import UniformMesh
 from hermite_fe.constraints import ContactLaw
 from hermite_fe.contacts import Contact, NodeContact
 from hermite_fe.far_fields import GridViscosity
-from hermite_fe.integrators import Integrator, MoreauJean
+from hermite_fe.integrators import Integrator
 from hermite_fe.model import BeamModel, beam_model
 from hermite_fe.run import Stepper
 
 STEP = 1e-3  # in units of t*, at κ/ν = 0.1
 HALF_LENGTH = 100.0  # l*
-END = 1.0  # t*, of the impact
+START, END = 0.06, 1.0  # t*, of the first call and of the impact; growing steps grow from 0.05 on
+STEPS = 8  # a call, as between two saved instants
 
 njit = numba.njit(error_model="numpy", fastmath={"contract"})
 
@@ -36,33 +33,28 @@ def _model(nodes: int, contact: Contact, half_length: float) -> BeamModel:
 
 def prepared_step(
     nodes: int,
-    integrator: Integrator | None = None,
-    contact: Contact | None = None,
+    integrator: Integrator,
+    contact: Contact,
     *,
-    growing: bool = False,
-    start: float = 0.5,
+    growing: bool,
     half_length: float = HALF_LENGTH,
     length: float = STEP,
-    steps: int = 1,
 ) -> Callable[[], None]:
-    """A half beam of ``nodes`` nodes in the middle of an impact; each call of the result takes ``steps`` more steps.
+    """A half beam of ``nodes`` nodes in the middle of an impact; each call of the result takes :data:`STEPS` more,
+    active set included.
 
-    growing : steps in proportion to time, so that every one makes and factors a new matrix.
-    start : of the first call, in t*. half_length : in l*; the shorter, the more of the nodes are in contact (at most
-    3 l* of the beam are). length : of constant steps, in t*.
+    growing : steps in proportion to time, so that every one makes and factors a new matrix. half_length : in l*; the
+    shorter, the more of the nodes are in contact (at most 3 l* of the beam are). length : of constant steps, in t*.
 
     Raises ``RuntimeError`` when a step fails.
     """
     sizes = (0.1 * STEP, 2.0 * STEP) if growing else (length, 0.0)
-    integrator = (integrator or MoreauJean()).with_steps(*sizes)
-    contact = contact or NodeContact(hold=16, hold_until=0.0)
     model = _model(nodes, contact, half_length)
-    law = ContactLaw(hold=contact.hold or 0)
-    run = Stepper(model.system, model.displacement, model.velocity, integrator, END, law)
-    run.advance_to(int(np.searchsorted(run.instants, start)))
+    run = Stepper(model.system, model.displacement, model.velocity, integrator.with_steps(*sizes), END, ContactLaw())
+    run.advance_to(int(np.searchsorted(run.instants, START)))
 
     def step() -> None:
-        if run.step + steps >= run.instants.size or run.advance_to(run.step + steps) != 0:
+        if run.step + STEPS >= run.instants.size or run.advance_to(run.step + STEPS) != 0:
             raise RuntimeError(f"no step after t = {float(run.instants[run.step])!r}")
 
     return step
@@ -88,8 +80,8 @@ def substitute(L: NDArray[np.float64], b: NDArray[np.float64], x: NDArray[np.flo
         x[i] = x[i] * L[0, i] - L[3, i] * x[i + 3] - L[2, i] * x[i + 2] - L[1, i] * x[i + 1]
 
 
-def plain_step(nodes: int, *, factors: bool, steps: int = 1) -> Callable[[], None]:
-    """Plain compiled LDLᵀ of the same beam's step matrix, ``steps`` times: its ``factors`` and the solution, or the
+def plain_step(nodes: int, *, factors: bool) -> Callable[[], None]:
+    """Plain compiled LDLᵀ of the same beam's step matrix, as many times: its ``factors`` and the solution, or the
     solution alone. Four times as fast as LAPACK's pbtrf and pbtrs, which are made for wide bands.
     """
     system = _model(nodes, NodeContact(), HALF_LENGTH).system
@@ -98,7 +90,7 @@ def plain_step(nodes: int, *, factors: bool, steps: int = 1) -> Callable[[], Non
     factor(S, L)
 
     def step() -> None:
-        for _ in range(steps):
+        for _ in range(STEPS):
             if factors:
                 factor(S, L)
             substitute(L, right, x)

@@ -1,8 +1,7 @@
 """When shear matters: the whole impact over the slenderness with and without shear; and one stopped point, whose force,
 impulse and moment the theory has exactly, on both paths.
 
-``python -m benchmarks.figures.shear`` writes ``shear.png`` in ``docs/figures`` (a minute). Paths that do not model a
-beam are left out.
+``python -m benchmarks.figures.shear`` writes ``shear.png`` in ``docs/figures`` (a minute).
 """
 
 from __future__ import annotations
@@ -16,7 +15,7 @@ from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.measure.moments import mean_reaction
 from bent_beam.measure.numbers import Number
-from bent_beam.method import Method, method_from_tables
+from bent_beam.method import method_from_tables
 from comparison.bouncing import bounce
 from comparison.figures import style
 from theory.shear import StoppedPoint
@@ -44,31 +43,24 @@ def sheared(kappa_over_nu: float, slenderness: float) -> Impact:
     return Impact.whole_beam(kappa_over_nu, relative_damping=DAMPING, shear_length=length, shear_ratio=RATIO)
 
 
-def numbers(method: Method, impact: Impact) -> tuple[Number, Number] | None:
-    """Largest moment and restitution with their bars; ``None``: the path does not take this beam."""
-    if method.refuses(impact) is not None:
-        return None
-    found = bounce(impact, method, save=500).numbers
-    moment, restitution = found["peak_moment"], found["restitution"]
-    assert isinstance(moment, Number) and isinstance(restitution, Number)  # the beam is damped
-    return moment, restitution
+def numbers(path: str, impact: Impact) -> tuple[Number, Number]:
+    """Largest moment and restitution with their bars."""
+    found = bounce(impact, method_from_tables(path, {}), save=500).numbers
+    return found["peak_moment"], found["restitution"]  # the beam is damped: no bands
 
 
 def draw(out: Path) -> list[Path]:
     """``shear``: (a) largest moment, (b) restitution over slenderness, (c) force of one point over time."""
     with style.figure(2, 2, width=style.PAGE, height=5.2) as (fig, ((left, middle), (right, last))):
         for kappa, fill in zip(KAPPAS, ("none", None)):
-            bare = numbers(method_from_tables("hermite", {}), Impact.whole_beam(kappa, relative_damping=DAMPING))
-            for axis, number in zip((left, middle), bare or ()):
+            bare = numbers("hermite", Impact.whole_beam(kappa, relative_damping=DAMPING))
+            for axis, number in zip((left, middle), bare):
                 axis.axhline(number.known, color="black", lw=0.8, ls="--")
             for path, slenderness in PATHS.items():
-                method = method_from_tables(path, {})
-                rows = [(x, one) for x in slenderness if (one := numbers(method, sheared(kappa, x))) is not None]
                 mark = style.mark(path) | {"mfc": fill, "label": rf"{path}, $\kappa/\nu={kappa:g}$"}
-                for axis, i in ((left, 0), (middle, 1)):
-                    if rows:
-                        values, errors = zip(*((one[i].known, one[i].bar) for _, one in rows))
-                        style.bars(axis, [x for x, _ in rows], values, errors, mark)
+                rows = [numbers(path, sheared(kappa, x)) for x in slenderness]
+                for axis, found in zip((left, middle), zip(*rows)):
+                    style.bars(axis, slenderness, [one.known for one in found], [one.bar for one in found], mark)
         time = np.geomspace(0.05, 30.0, 120)
         right.loglog(time, 2.0 * np.sqrt(2.0 / (np.pi * time)), color="black", lw=0.8, ls="--", label="without shear")
         right.loglog(time, StoppedPoint(RATIO).reaction(time), **style.THEORY | {"lw": 1.0})

@@ -12,7 +12,6 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from functools import partial
 from itertools import chain, repeat
 from pathlib import Path
 from string import ascii_lowercase
@@ -200,11 +199,11 @@ def item(name: str, *, beside: str = "", **parts: str) -> Callable[[Draw], Draw]
 def items(module: str, draw: Callable[..., None], rows: Iterable[tuple[Any, ...]]) -> None:
     """Register figures that one function draws: a row is id, title, caption, and what ``draw`` gets after the sheet."""
     for name, title, caption, *given in rows:
-        ITEMS[name] = Item(name, title, caption, module, partial(_draw, draw, given))
 
+        def drawn(sheet: Sheet, given: Sequence[Any] = given) -> None:
+            draw(sheet, *given)
 
-def _draw(draw: Callable[..., None], given: Sequence[Any], sheet: Sheet) -> None:
-    draw(sheet, *given)
+        ITEMS[name] = Item(name, title, caption, module, drawn)
 
 
 def order(name: str) -> tuple[int, int, int, str]:

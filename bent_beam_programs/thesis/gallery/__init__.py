@@ -27,12 +27,10 @@ from bent_beam_programs.thesis.sheet import ITEMS as _REGISTERED
 from bent_beam_programs.thesis.sheet import Item, Sheet, order
 from comparison.figures.style import FORMATS
 from comparison.readable import readable
+from comparison.store import PACKAGES
 from comparison.workers import run_all
 
-PACKAGES = (
-    *("bent_beam", "theory", "hermite_fe", "self_similar_fe", "exudyn_models", "comparison"),
-    "bent_beam_programs.thesis",
-)
+CODE = (*PACKAGES, "bent_beam_programs.thesis")
 
 for _module in iter_modules(__path__):  # each registers its items
     import_module(f"{__name__}.{_module.name}")
@@ -51,7 +49,7 @@ def draw_item(name: str, out: Path, formats: Sequence[str]) -> dict[str, Any]:
     ``drawn``, or of ``failures`` (with "reason")."""
     chosen, mark = ITEMS[name], out / ".drawn" / f"{name}.json"
     about = {"id": name, "title": chosen.title, "caption": chosen.caption}
-    key = digest_of(PACKAGES, about | {"formats": sorted(formats)})
+    key = digest_of(CODE, about | {"formats": sorted(formats)})
     kept: dict[str, Any] = json.loads(mark.read_text()) if mark.is_file() else {"key": None}
     if kept["key"] == key and all(Path(f).is_file() for f in kept["drawn"]["files"]):
         return dict(kept["drawn"])
