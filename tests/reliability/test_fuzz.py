@@ -17,7 +17,6 @@ from hypothesis import strategies as st
 import exudyn_models
 import hermite_fe
 from bent_beam import ImpactHistory
-from theory import contact_parameters
 
 LIMIT = 120  # s an input; all of them are meant to take a second at most
 
@@ -218,19 +217,3 @@ def test_the_exudyn_path_finishes_or_says_why_not(tables, elements, relative, ch
         chosen["exudyn.integrator.relative_step"] = repr(relative)
     with mock.patch("exudyn_models.stepping.MOST_WORK", 4e6):  # half a minute: longer ones are refused at the same door
         simulate("exudyn", tables, elements, chosen)
-
-
-# --- Python calls --------------------------------------------------------------------------------------------------
-
-
-@fuzz(20, 400)
-@given(st.one_of(decades(-8.0, 6.0), anything), st.one_of(signed, anything), st.one_of(signed, anything), signed)
-def test_contact_parameters_are_finite_or_refused(kappa, alpha, psi, chi):
-    try:
-        found = contact_parameters(kappa, alpha, psi, chi)
-    except (ValueError, TypeError, OverflowError) as error:
-        assert str(error)
-        return
-    assert math.isfinite(found.lambda0) and math.isfinite(found.r0)
-    if max(abs(float(v)) for v in (alpha, psi, chi)) < 1e100 and float(kappa) > 1e-20:
-        assert math.isfinite(found.lambda1) and math.isfinite(found.r1)

@@ -99,12 +99,12 @@ def test_a_hostile_file_is_refused_before_its_values_are_read(name, good, tmp_pa
     assert re.search(f"is not a readable history: .*{why}", refusal(file))
 
 
-def changed(name, change):
-    """One variable made anew: (dims, values, attributes) in, the same out."""
+def changed(name, change, dims=None, **attributes):
+    """One variable made anew, from its values."""
 
     def make(data):
         old = data[name]
-        return data.drop_vars(name).assign({name: change(old.dims, old.values, dict(old.attrs))})
+        return data.drop_vars(name).assign({name: (dims or old.dims, change(old.values), old.attrs | attributes)})
 
     return make
 
@@ -122,16 +122,16 @@ def impact(**changes):
 
 
 MISREAD = {
-    "transposed": changed("gap", lambda d, v, a: (d[::-1], v.T, a)),
-    "an impulse at the nodes": changed("impulse", lambda d, v, a: (("time", "x"), v, a)),
-    "millimetres": changed("gap", lambda d, v, a: (d, 1e3 * v, a | {"units": "mm"})),
-    "nodes from right to left": changed("x", lambda d, v, a: (d, v[::-1], a)),
-    "a time before the impact": changed("time", lambda d, v, a: (d, v - 0.05, a)),
-    "sizes that overflow": changed("gap", lambda d, v, a: (d, 1e200 * v, a)),
-    "no number": changed("gap", lambda d, v, a: (d, np.nan * v, a)),
+    "transposed": changed("gap", np.transpose, ("x", "time")),
+    "an impulse at the nodes": changed("impulse", np.copy, ("time", "x")),
+    "millimetres": changed("gap", lambda v: 1e3 * v, units="mm"),
+    "nodes from right to left": changed("x", lambda v: v[::-1]),
+    "a time before the impact": changed("time", lambda v: v - 0.05),
+    "sizes that overflow": changed("gap", lambda v: 1e200 * v),
+    "no number": changed("gap", lambda v: np.nan * v),
     "no times": lambda data: data.drop_vars("time"),
-    "a half beam to the left": changed("x", lambda d, v, a: (d, v - 9.0, a)),
-    "a beam longer than itself": changed("x", lambda d, v, a: (d, 1e4 * v, a)),
+    "a half beam to the left": changed("x", lambda v: v - 9.0),
+    "a beam longer than itself": changed("x", lambda v: 1e4 * v),
     "the half said to be the full beam": attribute("symmetry", "full"),
     "a symmetry that is none": attribute("symmetry", "none"),
     "no format": without("format"),

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from called import answered, refused
-from strangers import Plain
+from strangers import Plain, Stranger
 
 from bent_beam.cases import Case
 from bent_beam.impact import Impact
@@ -90,13 +90,8 @@ def test_the_thesis_settings_of_its_own_cases_and_the_units_of_its_figures() -> 
 
 
 def test_a_solver_that_cannot_finish_is_a_row_of_its_own_without_numbers() -> None:
-    given = case(1.0, 0.01)
-
-    class Broken(HermiteFE):
-        def simulate(self, *args: Any, **kwargs: Any) -> Any:
-            raise ArithmeticError("no luck")
-
-    (found,) = run_variants([Variant("broken", given.impact, given.end_time, Broken())])
+    given, broken = case(1.0, 0.01), Stranger("fails")
+    (found,) = run_variants([Variant("broken", given.impact, given.end_time, broken)])
     assert "no luck" in found.failure and found.row()["lift"] is None
     with pytest.raises(ValueError, match="broken: no lift"):
         _ = found.lift
