@@ -27,6 +27,14 @@ if "PYTEST_XDIST_WORKER" not in os.environ:  # workers inherit it
     os.environ["BENTBEAM_STORE"] = STORE.name
 
 
+@pytest.fixture
+def own_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The working folder is empty, and the store is in the folder in which a command is started."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("BENTBEAM_STORE", "store")
+    return tmp_path
+
+
 def pytest_sessionstart(session: pytest.Session) -> None:
     """Each worker would compile every integrator for itself, at the same time as the other."""
     if hasattr(session.config, "workerinput") or not getattr(session.config.option, "numprocesses", None):

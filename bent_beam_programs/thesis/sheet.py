@@ -52,7 +52,7 @@ class _Curve:
 class Sheet:
     """One figure or table in the making, its data, and the numbers that go with it.
 
-    numbers : name with unit → number. files : ending → writer of a further file.
+    numbers : name with unit → number. page : text of a Markdown page, if one is written beside it.
     """
 
     figure_: Figure | None = None
@@ -60,7 +60,7 @@ class Sheet:
     panels: dict[int, str] = field(default_factory=dict)
     rows: list[list[Any]] = field(default_factory=list)
     numbers: dict[str, float | None] = field(default_factory=dict)
-    files: dict[str, Callable[[Path], object]] = field(default_factory=dict)
+    page: str = ""
 
     @contextmanager
     def figure(
@@ -141,15 +141,15 @@ class Sheet:
         return stream.getvalue()
 
     def save(self, out: Path, name: str, formats: Sequence[str] = ("png",)) -> list[Path]:
-        """Write picture(s), further files and ``name.csv``; returns the files, the CSV last.
+        """Write picture(s), page and ``name.csv``; returns the files, the CSV last.
 
         Raises ``ValueError`` where nothing was drawn.
         """
         with matplotlib.rc_context(style.RC):
             files = [] if self.figure_ is None else style.save(self.figure_, out, name, formats)
-        for ending, write in self.files.items():
-            files.append(out / f"{name}{ending}")
-            write(files[-1])
+        if self.page:
+            files.append(out / f"{name}.md")
+            write_atomically(files[-1], self.page)
         if not files:
             raise ValueError(f"{name} draws nothing")
         files.append(out / f"{name}.csv")

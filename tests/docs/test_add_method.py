@@ -16,17 +16,15 @@ LABEL = "Finite differences, fine"
 
 
 @pytest.fixture(autouse=True)
-def installed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+def installed(own_folder: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """The package of the page: its module and what a wheel says of it."""
-    (tmp_path / "differences.py").write_text(snippet(PAGE, 'title="differences.py"'), encoding="utf-8")
-    about = tmp_path / "differences-1.0.dist-info"
+    (own_folder / "differences.py").write_text(snippet(PAGE, 'title="differences.py"'), encoding="utf-8")
+    about = own_folder / "differences-1.0.dist-info"
     about.mkdir()
     (about / "METADATA").write_text("Metadata-Version: 2.1\nName: differences\nVersion: 1.0\n")
     group, line = re.findall(r'entry-points\."(.+)"\]\n(.+)', snippet(PAGE, "entry-points"))[0]
     (about / "entry_points.txt").write_text(f"[{group}]\n{line.replace(chr(34), '')}\n")
-    monkeypatch.syspath_prepend(tmp_path)
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("BENTBEAM_STORE", "store")
+    monkeypatch.syspath_prepend(own_folder)
     method._found.cache_clear()
     yield
     method._found.cache_clear()

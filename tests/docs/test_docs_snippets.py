@@ -38,15 +38,6 @@ def name_of(page: Path) -> str:
     return page.relative_to(ROOT).as_posix()
 
 
-@pytest.fixture
-def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """An empty working folder with the project's cases and a store of its own."""
-    (tmp_path / "cases").symlink_to(CASES)
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("BENTBEAM_STORE", str(tmp_path / "store"))
-    return tmp_path
-
-
 @pytest.fixture(autouse=True)
 def registries() -> Iterator[None]:
     """As they were, afterwards: snippets may add to them."""
@@ -68,8 +59,9 @@ LONG = [
 
 
 @pytest.mark.parametrize(("page", "all_of_it"), [*QUICK, *LONG])
-def test_commands_and_snippets_run(page, all_of_it, folder, capsys):
+def test_commands_and_snippets_run(page, all_of_it, own_folder, capsys):
     """One after the other, the names of snippets shared. What stands in README too is run there."""
+    (own_folder / "cases").symlink_to(CASES)
     space: dict[str, object] = {"__name__": "__docs__"}
     elsewhere = [] if page == PAGES[0] else [block.body for block in blocks(PAGES[0])]
     for block in blocks(page):

@@ -13,7 +13,5 @@ def pytest_terminal_summary(terminalreporter):
 
 
 @pytest.fixture(autouse=True)
-def in_a_folder_of_its_own(tmp_path, monkeypatch):
-    """Runs, and the partial history of one that fails, are kept where the command is started: not in the project."""
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("BENTBEAM_STORE", "store")
+def away_from_the_project(own_folder):
+    pass

@@ -26,7 +26,6 @@ from comparison.store import RunStore, code_of, source_of
 from hermite_fe import HermiteFE
 from hermite_fe.contacts import NodeContact
 
-
 NO_METHODS = {
     "exits when loaded": lambda: sys.exit("bye"),
     "is no dataclass": lambda: SimpleNamespace,

@@ -7,13 +7,13 @@ from __future__ import annotations
 import functools
 import math
 import re
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from scipy.interpolate import CubicHermiteSpline
 
 from bent_beam.history import ImpactHistory
-from bent_beam.measure.numbers import Number
 from bent_beam.meshes import UniformMesh
 from bent_beam_programs.thesis.gallery.drawing import plain_line
 from bent_beam_programs.thesis.gallery.runs import case, thesis
@@ -114,20 +114,15 @@ def curvatures(sheet: Sheet) -> None:
     sheet.table(["K (1/m)", "κ/ν", "λ₀", "r₀/ν", "elements per front"], rows, width=4.6)
 
 
-def shares(number: Number) -> tuple[float, float]:
-    """Difference from theory and error bar, over theory."""
-    return float(number.relative() or 0.0), float(number.relative_bar() or 0.0)
-
-
 def compare(sheet: Sheet, what: str, symbol: str, error: str) -> None:
     """Theory's curve, the thesis's settings and both paths, and their differences below."""
     ratios = np.geomspace(4e-4, 0.99, 300)
-    old = {k: v for k, o in noisy().items() if (v := o.measures[error]) is not None}
-    cross = plain_line("grey", "", marker="x", ms=4.5)
-    points = [("thesis's settings", cross, [(k, v / 100.0, 0.0) for k, v in old.items()])]
+    old = [(k, v / 100.0, 0.0) for k, o in noisy().items() if (v := o.measures[error]) is not None]
+    points: list[tuple[str, dict[str, Any], list[Any]]]  # κ/ν, difference from theory and error bar over theory
+    points = [("thesis's settings", plain_line("grey", "", marker="x", ms=4.5), old)]
     for name, mark in style.marks(r.label for r in matched()).items():
-        mine = [r for r in matched() if r.label == name and getattr(r, what).measured]
-        points.append((name, mark, [(r.kappa_over_nu, *shares(getattr(r, what))) for r in mine]))
+        mine = [(r.kappa_over_nu, getattr(r, what)) for r in matched() if r.label == name]
+        points.append((name, mark, [(k, n.relative(), n.relative_bar()) for k, n in mine if n.measured]))
     with sheet.figure(2, 1, width=4.6, height=4.9, sharex=True, height_ratios=[1.5, 1]) as (_, (top, below)):
         top.set(xscale="log", yscale="log", ylabel=f"{symbol}  (1)")
         below.set(xlabel=r"$\kappa/\nu$  (1)", ylabel="difference  (%)")
@@ -135,7 +130,7 @@ def compare(sheet: Sheet, what: str, symbol: str, error: str) -> None:
         for name, drawn, found in points:
             if not found:
                 continue
-            k, off, bar = np.array(found).T
+            k, off, bar = np.array(found, float).T
             sheet.line(top, k, getattr(contact_parameters(k), what) * (1.0 + off), series=name, **drawn)
             sheet.line(below, k, 100.0 * off, series=name, **drawn)
             if bar.any():

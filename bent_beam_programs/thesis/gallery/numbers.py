@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from bent_beam.files import write_atomically
 from bent_beam_programs.thesis.gallery import chapter3_first_order as first
 from bent_beam_programs.thesis.gallery.chapter3_contact_point import FLAT, run
 from bent_beam_programs.thesis.gallery.chapter3_leading_order import CURVATURE, DURATION, ELEMENT, MIDDLE, first_impact
@@ -224,6 +223,6 @@ def numbers(sheet: Sheet) -> None:
     """
     found = [printed.row() for part in PRINTED for printed in part()]
     sheet.data(COLUMNS, found)
-    sheet.files[".md"] = lambda file: write_atomically(file, markdown(found))
+    sheet.page = markdown(found)
     for name, ours, other, _, _ in counts(found):
         sheet.numbers |= {name: float(ours), f"{name}, with (3.1.8)": float(other)}

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from bent_beam.cases import Case
 from bent_beam.impact import Impact
 from bent_beam.method import Method
@@ -102,12 +104,12 @@ def friction_variants(case: Case) -> list[Variant]:
     on the wall, which is of second order in the slope.
     """
     steps, end = INTEGRATORS["generalized_alpha"](relative_step=RUBBING_STEP), RUBBING_DURATION * case.impact.time_scale
-    found = []
-    for f in COEFFICIENTS:
-        contact = CONTACTS["segment_friction"](friction=f)
-        method = ExudynModel(contact=contact, integrator=steps, geometry=GEOMETRIES["true"]())
-        found.append(Variant(f"friction {f:g}", case.impact, end, method, f, reference=True, save=SAVED))
-    return found
+    plain = ExudynModel(integrator=steps, geometry=GEOMETRIES["true"]())
+    methods = {f: replace(plain, contact=CONTACTS["segment_friction"](friction=f)) for f in COEFFICIENTS}
+    return [
+        Variant(f"friction {f:g}", case.impact, end, method, f, reference=True, save=SAVED)
+        for f, method in methods.items()
+    ]
 
 
 PENALTY = Study("penalty", "penalty", penalty_variants, penalty_vary)
