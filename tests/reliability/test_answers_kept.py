@@ -160,16 +160,9 @@ def test_sources_edited_while_a_process_is_open_are_nobody_elses(monkeypatch):
     assert found.startswith(before.split()[0]) and str(os.getpid()) in found
 
 
-SIZES = (
-    "section.density=1e-70 section.fluid_density=1.7e308 "
-    "section.inner_diameter=1e200 section.yield_stress=5e-324 section.outer_diameter=1e55 beam.length=1e200 "
-    "beam.sagitta_length=1e200 beam.dogleg=1e300 beam.damping=1e308"
-).split()
-
-
-@pytest.mark.parametrize("size", SIZES)
-def test_sizes_that_cannot_be_calculated_with_are_refused_by_name(size):
-    assert size.partition(".")[0] in refused("predict", CASES / "drill_pipe.toml", "--theory-only", "--set", size)
+def test_a_stiffness_that_cannot_be_calculated_with_is_refused_by_the_name_of_its_section():
+    words = ("predict", CASES / "drill_pipe.toml", "--theory-only", "--set", "section.outer_diameter=1e55")
+    assert "section: bending_stiffness must not exceed" in refused(*words)
 
 
 @pytest.mark.parametrize(("leave", "failed"), [(lambda: os._exit(0), 1), (lambda: os.chdir("/"), 0)])
