@@ -13,11 +13,6 @@ from comparison.methods import methods_from_file
 from comparison.rows import MatchRow
 
 
-def drawn(seed, count):
-    random = np.random.default_rng(seed)
-    return [draw(random) for _ in range(count)]
-
-
 def row(error, bar):
     number = Number(1.0 + error, bar, 1.0)
     return MatchRow("x", "x", {}, 0.5, 0.0, 0.0, 0.0, 0.0, 1.0, lambda0=number, r0=number)
@@ -29,7 +24,8 @@ def test_a_bar_that_misses_is_counted_and_kept_as_a_method_that_can_be_read(tmp_
     assert (found.share, found.runs) == (0.5, 3)
     assert found.ratio == pytest.approx(1.1)  # of bars over errors: 2, 2, 0.2, 0.2
     assert found.lost == pytest.approx(1 / 3)
-    asked = drawn(11, 3)
+    random = np.random.default_rng(11)
+    asked = [draw(random) for _ in range(3)]
     file, other = write_misses(found, asked, tmp_path)
     assert methods_from_file(file) == methods_from_file(other) == [asked[1].question.method]
     assert f"--kappa-over-nu {asked[1].kappa_over_nu!r}" in file.read_text() and "off by 1.00e-02" in file.read_text()
@@ -47,17 +43,13 @@ def test_error_bars_hold_with_94_of_100_numbers_covered_and_none_two_bars_off(mi
 # --- whole beams -----------------------------------------------------------------------------------------------------
 
 
-def beams_of(tmp_path, stratum, number=20):
-    random, file = np.random.default_rng(5), tmp_path / "drawn.toml"
-    found = []
-    for _ in range(number):
-        file.write_text(beams.draw(random, stratum))
-        found.append(load_case(file).impact)
-    return found
-
-
 def test_every_stratum_is_what_it_is_called(tmp_path):
-    found = {stratum: beams_of(tmp_path, stratum) for stratum in beams.STRATA}
+    found, file = {stratum: [] for stratum in beams.STRATA}, tmp_path / "drawn.toml"
+    for stratum, drawn in found.items():
+        random = np.random.default_rng(5)
+        for _ in range(20):
+            file.write_text(beams.draw(random, stratum))
+            drawn.append(load_case(file).impact)
     assert all(one.damping for beam in found.values() for one in beam), "without damping there are bands, no bars"
     assert {one.shear_stiffness is None for one in found["rigid"]} == {False, True}
     assert all(one.wall_stiffness for one in found["wall"])

@@ -68,7 +68,7 @@ def every_step(
 def stepped(impact: Impact, end_time: float, settings: Settings) -> Outcome:
     """A run of the Hermite path until ``end_time``, s, with its history and the reaction of every step."""
     history, steps = every_step(impact, end_time, settings.method(), saved_times(end_time))
-    return outcome_of(history, "", steps=steps, record=history)
+    return replace(outcome_of(history, "", steps=steps), history=history)
 
 
 def thesis(label: str, curvature: float, duration: float, **changes: Any) -> Outcome:

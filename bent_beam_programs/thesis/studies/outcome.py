@@ -90,7 +90,7 @@ class Outcome:
     mark : the path of a reference, whose mark it is drawn with; ``None`` for varied settings, which are lines.
     failure : why a run did not finish; then the arrays are empty. refused : the method had said so before.
     setting, refine : of the varied parameter and of the resolution, where methods are varied; ``label`` is then the
-        method's. steps : the reaction of every step, record : the history, where they were asked for.
+        method's. steps : the reaction of every step, history : of the whole run, where they were asked for.
     """
 
     label: str
@@ -111,14 +111,7 @@ class Outcome:
     setting: str = ""
     refine: float = 1.0
     steps: Steps | None = None
-    record: ImpactHistory | None = None
-
-    @property
-    def history(self) -> ImpactHistory:
-        """The whole run. Raises ``ValueError`` where it was not kept."""
-        if self.record is None:
-            raise ValueError(f"{self.label or 'run'}: its history was not kept")
-        return self.record
+    history: Any = None
 
     @property
     def method(self) -> str:
