@@ -18,12 +18,10 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from bent_beam.history import ImpactHistory
+from bent_beam.history import Array, ImpactHistory
 from bent_beam.hysteresis import FIRST_MODE, branches_of
 from bent_beam.impact import Impact
 from bent_beam.loads import loads_of
-
-Array = NDArray[np.float64]
 
 #: Period of the free–free beam's lowest mode over T*, whatever the beam's ends: 2π/(4.730/2)².
 LOWEST_PERIOD = 2.0 * math.pi / (FIRST_MODE / 2.0) ** 2

@@ -20,14 +20,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam.files import ENERGIES
-from bent_beam.history import ImpactHistory
+from bent_beam.history import Array, ImpactHistory
 from bent_beam.measure.limits import beyond_limits, limited_as
 from bent_beam.measure.reduction import hold_of
 
-Array = NDArray[np.float64]
 LEAST_PUSH = 1e-6  # of the largest gain of a contact point between two saved instants: less is no push
 LAST = 0.5  # of the run that is looked at: earlier, the start is not resolved
 

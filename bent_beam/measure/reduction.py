@@ -95,12 +95,11 @@ def rise_between(values: Array, k: int) -> float:
     return (after - before) ** 2 / (8.0 * bent) if bent > 0.0 else 0.0
 
 
-def begins_between(time: Array, total: Array, k: int, window: float) -> float:
+def begins_between(time: Array, total: Array, gained: Array, k: int, window: float) -> float:
     """Half of what a window, s, that begins between saved instants may gain beyond the largest of those that begin at
-    one, at ``k``: each lies within one that is longer by a saved interval."""
+    one, ``gained`` at ``k``: each lies within one that is longer by a saved interval."""
     step = float(np.diff(time[k : k + 2]).max(initial=0.0))
-    largest, longer = (float(np.max(np.interp(time + one, time, total) - total)) for one in (window, window + step))
-    return 0.5 * (longer - largest)
+    return 0.5 * float(np.max(np.interp(time + (window + step), time, total) - total) - gained[k])
 
 
 def hold_of(history: ImpactHistory) -> dict[str, float | None] | None:

@@ -21,22 +21,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam.free_flight import LOWEST_PERIOD, acting, has_left, may_return
-from bent_beam.history import ImpactHistory
+from bent_beam.history import Array, ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.measure.moments import element_at
-from bent_beam.measure.reduction import (
-    WALLS,
-    begins_between,
-    moment_left_out,
-    peak_moment,
-    rise_between,
-    wall_peaks,
-)
-
-Array = NDArray[np.float64]
+from bent_beam.measure.reduction import WALLS, begins_between, moment_left_out, peak_moment, rise_between, wall_peaks
 
 SHARES = ("translation", "vibration", "dissipated")  # of the energy
 WINDOW = 0.01
@@ -140,11 +130,10 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
     energy = history.array("kinetic_energy") + history.array("strain_energy")
     initial = float(energy[0])
     work = initial + history.energy("work_of_loads")
-    gained = np.interp(time + WINDOW * unit, time, total) - total
-    k = int(np.argmax(gained))
-    rise = (
-        rise_between(gained, k) if impact.wall_stiffness is not None else begins_between(time, total, k, WINDOW * unit)
-    )
+    window = WINDOW * unit
+    gained = np.interp(time + window, time, total) - total
+    k, soft = int(np.argmax(gained)), impact.wall_stiffness is not None
+    rise = rise_between(gained, k) if soft else begins_between(time, total, gained, k, window)
     begin = k + max(int(np.argmax(total[k:] > total[k])) - 1, 0)  # the last instant before the wall pushes
     before = _velocity(history, hit[0][0], float(time[hit[0][0]]))
     arrives = abs(before) > 1e-6 * speed  # a beam that only turns has no restitution
@@ -157,7 +146,7 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
         return {"restitution": -after / before if arrives else 0.0} | dict(zip(SHARES, shares))
 
     found, begins, ends = (at(instant) for instant in (last, float(time[end - 1]), float(time[end])))
-    part, given = 0.5 if impact.wall_stiffness is None else 1.0, float(np.interp(last, time, work))
+    part, given = 1.0 if soft else 0.5, float(np.interp(last, time, work))
     gone = arrives and (left or len(contacts) > len(hit))
     return WholeImpact(
         restitution=found["restitution"] if gone else None,
