@@ -148,7 +148,6 @@ def test_damping_ratio_and_loss_factor_are_the_same_time_constant():
         ({"beam": {"curvature": 0.1, "loss_factor": 0.1}}, "loss_frequency is required"),
         ({"beam": {"curvature": 0.1, "hysteretic_loss": 0.1}}, "hysteretic_loss .got 0.1 alone.* is at [0-9.]+ Hz"),
         ({"beam": {"curvature": 0.1, "hysteretic_loss": 0.1, "loss_frequency": 1e9}}, "loss_frequency .*got 10{9}.0"),
-        ({"beam": {"curvature": 0.1, "hysteretic_loss": 0.1, "loss_factor": 0.1}}, "loss_factor = 0.1 and beam.hyst"),
         ({"beam": {"curvature": 0.1, "loss_frequency": 10.0}}, "loss_frequency has no effect"),
         ({"beam": {"curvature": 0.1, "tension_direction": "axis"}}, "tension_direction has no effect"),
         (
@@ -159,14 +158,12 @@ def test_damping_ratio_and_loss_factor_are_the_same_time_constant():
         ({"impact": {"velocity": 1.0, "angular_arm": 1.0}}, "angular_arm has no effect"),
         ({"impact": {"angular_speed": 0.2}}, "angular_arm, m, is required .*got 0.2 alone"),
         ({"impact": {"velocity": 1.0, "gravity_angle": 1.0}}, "gravity_angle has no effect"),
-        ({"impact": {"velocity": 1.0, "amplitude": 0.01, "frequency": 5.0}}, "velocity = 1.0 and impact.amplitude"),
         ({"impact": {"amplitude": 0.01}}, "impact.frequency, Hz, is required"),
         ({"impact": {"velocity": 1.0, "frequency": 5.0}}, "frequency has no effect without impact.amplitude"),
         ({"wall": {"clearance": 0.01}}, "wall.clearance has no effect on a free beam"),
         ({"impact": {"velocity": 1.0, "gravity": 1.0, "acceleration": 1.0}}, "acceleration = 1.0 and impact.gravity"),
         ({"wall": {"curvature": 0.002}}, "wall.curvature must be less"),
         ({"wall": {"damping": 1.0}}, "wall.damping has no effect on a rigid wall"),
-        ({"wall": {"stiffness": 1e6, "damping": 1.0, "damping_ratio": 0.1}}, "say the same"),
         ({"wall": {"stiffness": 1e6, "damping_ratio": 0.1, "from": 1.0, "to": 1.0}}, "nothing at a stop"),
         ({"wall": {"stiffness": 1e6, "damping_ratio": 0.1, "from": 15.0}}, "nothing at a stop"),
         ({"section": 0}, "section"),
@@ -181,7 +178,6 @@ def test_damping_ratio_and_loss_factor_are_the_same_time_constant():
         # what contradicts the model of the beam
         ({"beam": PLAIN | {"model": "timoshenko"}, "section": None}, "needs beam.shear_stiffness"),
         ({"beam": PLAIN | {"rotary_inertia": 1.0}, "section": None}, "no effect without"),
-        ({"beam": BOW | {"shear_stiffness": 1e7}}, "say the same thing"),
         ({"beam": BOW | {"model": "rayleigh"}}, "beam.model must be one of"),
         # mistakes
         ({"beam": BOW | {"length": -1.0}}, r"^beam.length must be positive \(got -1.0\)"),

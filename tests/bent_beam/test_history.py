@@ -1,6 +1,5 @@
 """The record of a run: finite, complete, written whole or not at all, read back equal."""
 
-import json
 from types import SimpleNamespace
 
 import numpy as np
@@ -43,7 +42,8 @@ def test_a_history_is_read_back_equal_and_its_budget_adds_up(tmp_path):
     half = again.energy_budget(until=0.4)  # straight between instants
     assert (half["kinetic_energy"], half["loss_impact"]) == pytest.approx((-0.4, 0.2))
     assert small(strain_energy=np.array([1.0, 1.5, 2.0])).energy_budget()["initial_energy"] == 6.0
-    assert json.dumps(budget, allow_nan=False)
+    with pytest.raises(ValueError, match="gap is not finite"):
+        small(gap=np.full((3, 4), np.nan))
     one = history_of([0.0], [0.0, 1.0])  # a single instant will do
     assert ImpactHistory.load(one.save(tmp_path / "one.nc")).time.tolist() == [0.0]
 
@@ -56,17 +56,6 @@ def test_stress_is_that_of_bending_and_of_the_pull_along_the_beam():
         bare = history_of([0.0], x[0], impact=impact, gap=x**2, slope=-2.0 * x)
         assert bare.stress is None
         assert bare.described("", section).stress == pytest.approx(2.0 * (3.0 - 2.0) / 0.5 + 10.0 / 4.0)
-
-
-def test_numbers_that_are_none_and_broken_files_are_refused(tmp_path):
-    with pytest.raises(ValueError, match="gap is not finite"):
-        small(gap=np.full((3, 4), np.nan))
-    file = small().save(tmp_path / "run.nc")
-    whole = file.read_bytes()
-    for damaged in (b"", b"not netCDF", whole[: len(whole) // 2]):
-        file.write_bytes(damaged)
-        with pytest.raises(ValueError, match=r"run\.nc"):
-            ImpactHistory.load(file)
 
 
 def test_the_first_force_of_a_history_that_begins_late_is_a_mean_since_the_first_touch():

@@ -13,7 +13,6 @@ from bent_beam.measure.estimators import INSIDE, SIDE, LeadingEstimate, first_or
 from bent_beam.measure.moments import Moments, first_front, local_front, moments, one_side
 from bent_beam.measure.numbers import FACTOR, Number
 from bent_beam.measure.reduction import peak_moment
-from comparison.compare import compare_histories
 from theory import contact_parameters
 
 
@@ -83,17 +82,12 @@ def test_a_zone_thrown_off_the_wall_may_have_been_pushed_that_much_too_hard(lift
     assert found.lambda0.parts["lift"] == pytest.approx(INSIDE * min(lift / 0.1, 1.0) * lift * found.lambda0.value)
 
 
-@pytest.mark.parametrize("symmetry", ["half", "full"])
-def test_the_first_moment_is_that_of_where_the_pushes_were(symmetry):
+def test_the_first_moment_is_that_of_where_the_pushes_were():
     """A unit force on each side that moves as √t: its moment is (2/3)t^{3/2}, whatever the mesh did since."""
     time = np.linspace(0.0, 1.0, 201)
-    sides = [1.0] if symmetry == "half" else [-1.0, 1.0]
-    places = np.sqrt(time)[:, None] * np.array(sides)
-    history = history_of(
-        time, places[-1], symmetry=symmetry, impulse=np.outer(time, np.ones(len(sides))), total_impulse=2.0 * time,
-        contact_position=places,
-    )  # fmt: skip
-    impulse, moment = one_side(history)
+    places, both = np.sqrt(time)[:, None] * [-1.0, 1.0], {"symmetry": "full", "total_impulse": 2.0 * time}
+    pushes = {"impulse": np.outer(time, [1.0, 1.0]), "contact_position": places}
+    impulse, moment = one_side(history_of(time, places[-1], **pushes, **both))
     assert impulse == pytest.approx(time)
     assert moment[50:] == pytest.approx(2.0 / 3.0 * time[50:] ** 1.5, rel=1e-3)
 
@@ -103,13 +97,6 @@ def test_the_front_is_where_it_is_at_the_instant_not_where_it_was_on_the_way(tim
     """Of an exact history, F = c/√t at λ₀√t: I = 2c√t, J = cλ₀t."""
     front = local_front(times, 3.0 * np.sqrt(times), 1.5 * 0.7 * times)
     assert front == pytest.approx(0.7 * np.sqrt(times), rel=1e-12)
-
-
-def test_noise_widens_the_error_bar_and_stays_inside_it():
-    exact = contact_parameters(0.3)
-    found = [leading_order(moments(synthetic(0.3, noise=0.02, seed=seed))).r0 for seed in range(10)]
-    assert all(r0.bar > 1e-5 for r0 in found)
-    assert sum(abs(r0.value - exact.r0) <= r0.bar for r0 in found) >= 9
 
 
 def test_a_companion_that_says_the_same_leaves_what_one_run_tells():
@@ -244,20 +231,6 @@ def test_the_moment_in_the_middle_needs_no_node_there(nodes):
     gap, slope = -np.outer(time, 0.3 * x**2 + 0.2 * x**3), np.outer(time, 0.6 * x + 0.6 * x**2)
     history = history_of(time, x, impact=Impact(2.5e-3, 1.0, 4.0, 0.2, 1.0), symmetry="full", gap=gap, slope=slope)
     assert peak_moment(history).midspan == pytest.approx(2.5e-3 * (3.0 * 0.6 + 0.2), rel=1e-12)
-
-
-def test_one_run_saved_at_other_times_and_further_is_the_same_run():
-    """A straight beam that flies at V₀ = 1 and bends to y_xx = t² meanwhile."""
-    x, impact = np.linspace(0.0, 1.0, 11), Impact.dimensionless(0.5).replace(natural_curvature=0.0)
-    flown = []
-    for time in (np.linspace(0.0, 1.0, 101), np.linspace(0.0, 2.0, 142)):
-        gap, one = 1.0 - time[:, None] - 0.5 * time[:, None] ** 2 * x**2, np.ones(time.size)
-        sums = dict.fromkeys(("total_impulse", "kinetic_energy", "strain_energy"), one)
-        flown.append(history_of(time, x, impact=impact, slope=time[:, None] ** 2 * x, gap=gap, **sums))
-    for pair in (flown, flown[::-1]):
-        found = compare_histories(*pair)
-        assert found["largest_difference"]["gap"] < 1e-4  # the nearest saved instants are 0.7 and 1.4 % apart
-        assert found["end"]["peak_moment"] == pytest.approx([1.0, 1.0], abs=1e-3)  # not 4, at t = 2, nor .9929²
 
 
 @pytest.mark.parametrize(("found", "front"), [(1e-18, 0.0), (9e-6, 0.0), (2e-5, 2e-5)])
