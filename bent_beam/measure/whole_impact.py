@@ -111,14 +111,11 @@ def pushes(time: Array, impulse: Array, shortest: float) -> list[tuple[int, int]
     return [(int(i), int(k)) for i, k in zip(begin, end)]
 
 
-def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATION) -> WholeImpact:
-    """Reduce a run. ``shortest`` : separations that count, T*.
-
-    Raises ``ValueError`` when the wall was never touched.
-    """
+def whole_impact(history: ImpactHistory) -> WholeImpact:
+    """Reduce a run. Raises ``ValueError`` when the wall was never touched."""
     impact, time = history.impact, history.time
     total, unit = history.array("total_impulse"), impact.slow_time_scale
-    contacts = pushes(time, total, shortest * unit)
+    contacts = pushes(time, total, SHORTEST_SEPARATION * unit)
     if not contacts:
         raise ValueError("the run ends before the wall was touched")
     mass, speed = impact.mass_per_length * impact.length, impact.velocity
