@@ -1,8 +1,6 @@
 """The impact problem: its groups, scales and validation."""
 
 import math
-from dataclasses import dataclass
-from typing import Annotated
 
 import numpy as np
 import pytest
@@ -11,12 +9,10 @@ from hypothesis import strategies as st
 
 from bent_beam import Impact
 from bent_beam.checks import affordable
-from bent_beam.errors import InputError, SimulationError
+from bent_beam.errors import SimulationError
 from bent_beam.fields import Quantity, declared
-from bent_beam.loads import Load, Place, loads_of, unmodelled
+from bent_beam.loads import loads_of, unmodelled
 from bent_beam.tables import TABLES
-from exudyn_models import ExudynModel
-from hermite_fe import HermiteFE
 
 THESIS = dict(bending_stiffness=1.0, mass_per_length=1.0, length=50.0, curvature=10.0, velocity=20.0)
 
@@ -50,24 +46,6 @@ def test_every_load_is_in_case_files_and_what_a_path_does_not_know_is_refused_by
     assert unmodelled(impact, ("acceleration", "curvature_rate")) is None
     assert "curvature_rate is not modelled" in unmodelled(impact, ("acceleration",))
     assert loads_of(Impact).keys() <= {name for table in TABLES.values() for name in declared(table)}
-
-
-@dataclass(frozen=True)
-class Pushed(Impact):
-    """With a load of somebody's own, a force at a place."""
-
-    force: Annotated[float, Load("N", "at a point")] = 0.0
-    force_at: Annotated[float, Place("m", "of the force", load="force")] = 0.0
-
-
-def test_the_place_of_a_load_lies_on_the_beam_and_means_nothing_without_the_load() -> None:
-    pushed = Pushed.dimensionless(0.5, length=4.0).replace(force=1.0)
-    assert not pushed.off_centre and pushed.replace(force_at=0.3).off_centre
-    for change, said in (({"force_at": 2.5}, "force_at must lie on"), ({"force": 0.0, "force_at": 0.3}, "no effect")):
-        with pytest.raises(InputError, match=said):
-            pushed.replace(**change)
-    for method in (HermiteFE(), ExudynModel()):
-        assert "force is not modelled" in method.refuses(pushed)
 
 
 def test_a_first_touch_without_a_bow_whose_apex_it_is_is_refused():

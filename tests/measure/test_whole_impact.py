@@ -99,6 +99,7 @@ def test_what_a_hit_loses_is_what_loads_do_not_give_and_it_is_where_it_pushes() 
     (hit,) = hits(run)
     assert (hit.energy, hit.lost) == pytest.approx((1.0 + 0.2 - 0.15, 0.15))
     assert hit.place == pytest.approx((0.5 + 3.0 * 1.0) / 4.0)
+    assert whole_impact(run).supplied == pytest.approx(1.0 + 0.4 * 0.495)
 
 
 def test_a_contact_before_one_wall_stays_one_while_the_other_pushes_too() -> None:
