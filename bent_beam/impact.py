@@ -48,6 +48,9 @@ class Impact(Scales):
 
     def __post_init__(self) -> None:
         super().__post_init__()
+        if not self.wall_in_part:  # from end to end, as if no edge were given
+            object.__setattr__(self, "wall_from", None)
+            object.__setattr__(self, "wall_to", None)
         _check_arrangement(self)
         _check_scales(self)
         check_loss(self)
@@ -170,9 +173,6 @@ def _check_arrangement(impact: Impact) -> None:
         if about.load and {-half: impact.left_end, half: impact.right_end}.get(place, "free") != "free":
             raise InputError(f"{name}: {about.load} has no effect on an end that is held (got {place!r})")
     begin, end = impact.wall_span
-    if (begin, end) == (-half, half):  # all of the wall, as if no edge were given
-        for name in ("wall_from", "wall_to"):
-            object.__setattr__(impact, name, None)
     if begin > end:
         raise InputError(f"wall_from must not exceed wall_to {end!r} (got {begin!r})")
     if impact.wall_damping and impact.wall_stiffness is None:
