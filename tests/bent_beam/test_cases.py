@@ -32,7 +32,6 @@ def test_pipe_is_outer_less_inner_bar_with_what_it_carries_along():
     assert pipe.mass_per_length == pytest.approx(outer.mass_per_length - inner.mass_per_length, rel=1e-13)
     walled = Pipe(outer_diameter=0.127, wall_thickness=0.0092, **STEEL)
     assert walled.bore == pytest.approx(0.1086, rel=1e-13)
-    assert walled.area == pytest.approx(math.pi * 0.0092 * (0.127 - 0.0092), rel=1e-13)  # along its middle line
     assert pipe.section_modulus == pytest.approx(pipe.second_moment / 0.0635, rel=1e-13)
     wet = Pipe(outer_diameter=0.127, inner_diameter=0.1086, fluid_density=1000.0, added_mass=3.0, **STEEL)
     carried = 1000.0 * math.pi * 0.0543**2 + 3.0
@@ -142,8 +141,6 @@ def test_damping_ratio_and_loss_factor_are_the_same_time_constant():
         ({"section": PIPE | {"outer_diameter": 1e154}}, r"section.outer_diameter must not exceed 1e\+60 .*1e\+154"),
         ({"section": PIPE | {"density": 5e-324}}, "section.density must be at least 1e-60 .*5e-324"),
         ({"section": {"kind": "round_bar", "diameter": 1e55, **STEEL}}, "section: bending_stiffness must not exceed"),
-        ({"impact": {}}, "impact.velocity is required"),
-        ({"impact": {"velocity": 1.0, "drop_height": 1.0}}, "impact.velocity = 1.0 and impact.drop_height"),
         ({"impact": {"drop_height": 1.0, "gravity_angle": 90.0}}, "needs gravity towards the wall"),
         ({"beam": {"curvature": 0.1, "loss_factor": 0.1}}, "loss_frequency is required"),
         ({"beam": {"curvature": 0.1, "hysteretic_loss": 0.1}}, "hysteretic_loss .got 0.1 alone.* is at [0-9.]+ Hz"),
@@ -185,7 +182,6 @@ def test_damping_ratio_and_loss_factor_are_the_same_time_constant():
         ({"impact": {"velocity": "fast"}}, r"impact.velocity must be a finite number \(got 'fast'\)"),
         ({"impact": None}, "impact is required"),
         ({"meshh": {}}, r"meshh is not a known setting \(did you mean mesh\?\)"),
-        ({"mesh": {"kind": "graded", "element_length": -2.0}}, r"mesh.element_length must be positive \(got -2.0\)"),
         ({"mesh": {"element_length": 1.0}}, "mesh.kind is required"),
         ({"run": {"end_time": 1.0, "duration": 1.0}}, "exclude each other"),
         ({"run": {"end_time": 1e300}}, r"^run.end_time "),

@@ -63,7 +63,7 @@ def test_a_whole_beam_that_rocks_bears_its_load_over_its_length_and_keeps_its_sp
     rocking = WHOLE.replace(acceleration=5.0, rotation=0.5, first_touch=0.2)
     history = HermiteFE(mesh=UniformMesh(1.0 / 50)).for_whole_beam(rocking).simulate(rocking, end_time=0.2)
     balance, x = balance_of(history), history.positions(0)
-    assert max(balance.momentum, balance.second_moment, balance.energy) < 1e-3
+    assert max(balance.momentum, balance.second_moment, balance.energy) < 1e-3 and abs(balance.points) < 1e-9
     spin = np.trapezoid(history.array("velocity") * x, x, axis=1)
     assert spin + history.array("impulse") @ history.contact_positions(0) == pytest.approx(spin[0], abs=2e-3)
     assert history.array("kinetic_energy")[0] == pytest.approx(1.0 + 0.5**2 / 3.0, rel=1e-3)
@@ -111,14 +111,6 @@ def test_missing_energy_is_a_share_of_what_there_was_and_of_the_work_of_loads() 
     assert balance_of(run).energy == pytest.approx(0.1)
 
 
-@pytest.mark.parametrize(("symmetry", "sides"), [("half", 2.0), ("full", 1.0)])
-def test_what_contact_points_got_is_what_the_wall_gave(symmetry: str, sides: float) -> None:
-    time, x = np.linspace(0.0, 1.0, 3), np.linspace(0.0 if symmetry == "half" else -1.0, 1.0, 3)
-    impulse = np.outer(time, [1.0, 2.0, 0.0])
-    run = history_of(time, x, impact=WHOLE, symmetry=symmetry, impulse=impulse, total_impulse=sides * 3.0 * time)
-    assert balance_of(run).points == pytest.approx(0.0)
-
-
 def test_a_beam_in_the_opposite_wall_is_in_a_wall() -> None:
     """Flat, 0.3 m behind the apex of a beam before a curved wall."""
     x, time = np.linspace(0.0, 1.0, 5), np.linspace(0.0, 1.0, 11)
@@ -151,9 +143,8 @@ def test_sound_sheared_runs_of_half_the_elements_have_nothing_to_warn_of(kind, r
 
 
 MIDDLE = Impact.whole_beam(1.25, relative_damping=1e-3)  # whose impulses have no second moment to be off
-SOFT = Impact.whole_beam(3.93, relative_damping=8.6e-4).replace(
-    wall_stiffness=24.7, wall_damping=0.5
-)  # few nodes touch
+# few nodes touch it
+SOFT = Impact.whole_beam(3.93, relative_damping=8.6e-4).replace(wall_stiffness=24.7, wall_damping=0.5)
 SWINGING = ExudynModel(integrator=GeneralizedAlpha(spectral_radius=0.95), refine=0.5)  # its means of the force
 FAR = Impact.dimensionless(0.5, length=1000.0)
 
