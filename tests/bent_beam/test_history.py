@@ -44,6 +44,9 @@ def test_a_history_is_read_back_equal_and_its_budget_adds_up(tmp_path):
     assert small(strain_energy=np.array([1.0, 1.5, 2.0])).energy_budget()["initial_energy"] == 6.0
     with pytest.raises(ValueError, match="gap is not finite"):
         small(gap=np.full((3, 4), np.nan))
+    (tmp_path / "run.nc").write_bytes((tmp_path / "run.nc").read_bytes()[:9000])
+    with pytest.raises(ValueError, match=r"run\.nc"):
+        ImpactHistory.load(tmp_path / "run.nc")
     one = history_of([0.0], [0.0, 1.0])  # a single instant will do
     assert ImpactHistory.load(one.save(tmp_path / "one.nc")).time.tolist() == [0.0]
 
