@@ -17,16 +17,6 @@ from bent_beam.loads import ENDS, SIMULATED, UNSHEARED, Feature, FreeMotion, Loa
 GOES_ON = "; leave it out for a wall that goes on"
 
 
-class _Group:
-    """The dimensionless group of a load with ν = 1, or that over ε."""
-
-    def __init__(self, load: str, *, over_epsilon: bool = False) -> None:
-        self.load, self.over_epsilon = load, over_epsilon
-
-    def __get__(self, scales: Scales, kind: type) -> float:
-        return scales.group(self.load) / (scales.epsilon if self.over_epsilon else 1.0)
-
-
 @dataclass(frozen=True)
 class Scales(Part):
     """The fields of :class:`bent_beam.Impact` with their units, meanings and ranges, and what follows from them."""
@@ -219,14 +209,45 @@ class Scales(Part):
         """Sum of all loads over L, N/m: μ times the acceleration of the centre of mass without a wall."""
         return self.load_within(self.half_length) / self.length
 
-    epsilon_alpha = _Group("acceleration")  # εα/ν = a₀ t*/V₀
-    epsilon_chi = _Group("curvature_rate")  # εχ/ν = c₀ l*²/V₀
-    epsilon_psi = _Group("fourth_derivative")  # εψ/ν = q₀ l*⁴/(V₀ t*)
-    epsilon_axial = _Group("axial_force")  # n = N/(μV₀²)
-    alpha = _Group("acceleration", over_epsilon=True)
-    chi = _Group("curvature_rate", over_epsilon=True)
-    psi = _Group("fourth_derivative", over_epsilon=True)
-    axial = _Group("axial_force", over_epsilon=True)
+    @property
+    def epsilon_alpha(self) -> float:
+        """εα/ν = a₀ t*/V₀."""
+        return self.group("acceleration")
+
+    @property
+    def epsilon_chi(self) -> float:
+        """εχ/ν = c₀ l*²/V₀."""
+        return self.group("curvature_rate")
+
+    @property
+    def epsilon_psi(self) -> float:
+        """εψ/ν = q₀ l*⁴/(V₀ t*)."""
+        return self.group("fourth_derivative")
+
+    @property
+    def epsilon_axial(self) -> float:
+        """n = N/(μV₀²)."""
+        return self.group("axial_force")
+
+    @property
+    def alpha(self) -> float:
+        """α with ν = 1."""
+        return self.epsilon_alpha / self.epsilon
+
+    @property
+    def chi(self) -> float:
+        """χ with ν = 1."""
+        return self.epsilon_chi / self.epsilon
+
+    @property
+    def psi(self) -> float:
+        """ψ with ν = 1."""
+        return self.epsilon_psi / self.epsilon
+
+    @property
+    def axial(self) -> float:
+        """n/ε with ν = 1, next to α, ψ, χ."""
+        return self.epsilon_axial / self.epsilon
 
     @property
     def loaded_to_first_order(self) -> bool:
