@@ -51,9 +51,8 @@ class Averages:
         averages = np.empty_like(forces)
         averages[0] = averaged
         averages[1:] = ((1.0 - self.alpha_f) * forces[1:] + self.alpha_f * forces[:-1]) / (1.0 - self.alpha_m)
-        if self.alpha_m:
-            apart = np.subtract.outer(np.arange(len(forces)), np.arange(len(forces)))
-            averages = np.tril((-self.alpha_m / (1.0 - self.alpha_m)) ** np.maximum(apart, 0)) @ averages
+        for k in range(1, len(averages)):
+            averages[k] -= self.alpha_m / (1.0 - self.alpha_m) * averages[k - 1]
         return (1.0 - self.gamma) * averages[:-1] + self.gamma * averages[1:], averages[-1]
 
 

@@ -47,6 +47,12 @@ def nodal_means(ends: Array) -> Array:
     return np.asarray(sums)
 
 
+def nodal_largest(ends: Array) -> Array:
+    """Likewise the size of the larger."""
+    sizes = np.pad(np.abs(ends), ((0, 0), (1, 1), (0, 0)))
+    return np.asarray(np.maximum(sizes[:, :-1, 1], sizes[:, 1:, 0]))
+
+
 def onwards(before: Any, gains: Array) -> Array:
     """Sums after each gain, ``before`` first."""
     return np.asarray(before + np.insert(np.cumsum(gains, axis=0), 0, 0.0, axis=0))
@@ -156,11 +162,9 @@ class Recorder:
 
     def _note_moments(self, moments: Array) -> None:
         """The largest bending moment since the saved instant before, its place, and the one in the middle."""
-        beam = self.beam
-        ends = np.pad(np.abs(moments), ((0, 0), (1, 1), (0, 0)))
-        nodes = np.maximum(ends[:, :-1, 1], ends[:, 1:, 0])
-        middle = nodes[:, np.argmin(np.abs(beam.shape.s))]
-        self._keep_largest("moments", nodes.max(axis=1), beam.shape.place[nodes.argmax(axis=1)], middle, anew=True)
+        shape, nodes = self.beam.shape, nodal_largest(moments)
+        middle = nodes[:, np.argmin(np.abs(shape.s))]
+        self._keep_largest("moments", nodes.max(axis=1), shape.place[nodes.argmax(axis=1)], middle, anew=True)
 
     def _keep_largest(self, name: str, sizes: Array, where: Array, *others: Array, anew: bool) -> None:
         """Save with each instant the largest of ``sizes``, ``where`` it was, and the largest of each of ``others``, of

@@ -81,10 +81,9 @@ class HeldStrip:
     behind the front until ``until``, of the end time."""
 
     def __init__(self, wall: Wall, hold: int, start: float | None = None) -> None:
-        if wall.explicit or wall.waves_return < 1.0 or wall.lifts:
-            start = 0.0 if start is None else start
+        usual = 0.0 if wall.explicit or wall.waves_return < 1.0 or wall.lifts else START
         self.hold = hold
-        self.start = min(START if start is None else start, wall.waves_return)
+        self.start = min(usual if start is None else start, wall.waves_return)
         self.until = wall.waves_return if hold else self.start
         self.captured = np.zeros(wall.nodes.size, bool)
         self._distance = np.abs(wall.nodes - wall.centre)
