@@ -6,9 +6,6 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
-from bent_beam.errors import InputError
-
-MAXIMUM_STEPS = 5_000_000
 LEFT_BY_HALVING = 1e-3  # of a step, what halving it may leave
 EVEN = 12.5  # steps of one length at least, while steps grow …
 CHANGE = 1.05  # … or as many as it takes them to grow by this factor
@@ -42,10 +39,6 @@ def growing_segments(first: float, relative: float) -> list[Segment]:
 
     A new step size costs a factorisation: it changes by ``CHANGE`` at a time, or by what ``EVEN`` steps make of it.
     """
-    even = min(1.0 / max(first, 1e-300), 1.0 / relative)
-    count = even + math.log(max(relative * even, 1.0)) / math.log1p(relative)
-    if not count <= MAXIMUM_STEPS:
-        raise InputError(f"exudyn.integrator.relative_step asks for {count:.3g} steps, at most {MAXIMUM_STEPS:.2g} fit")
     segments: list[Segment] = []
     t, step, change = 0.0, first, max(CHANGE, 1.0 + EVEN * relative)
     while t < 1.0 - 1e-12:
