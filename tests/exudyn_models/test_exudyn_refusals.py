@@ -1,6 +1,5 @@
 """What is refused, how failures end, and when the contact states of a step have settled."""
 
-import math
 from functools import partial
 
 import numpy as np
@@ -12,9 +11,9 @@ from bent_beam.meshes import NodesMesh, UniformMesh
 from bent_beam.method import method_from_tables
 from exudyn_models import ExudynModel
 from exudyn_models.contacts import Penalty, Rigid, SegmentFriction
-from exudyn_models.elements import ANCFCable, GeometricallyExact
+from exudyn_models.elements import ANCFCable
 from exudyn_models.geometry import TrueGeometry
-from exudyn_models.integrators import RK44, GeneralizedAlpha, Trapezoidal, VelocityVerlet
+from exudyn_models.integrators import RK44, GeneralizedAlpha, Newmark, VelocityVerlet
 from exudyn_models.settling import ANY, Settling
 from exudyn_models.solvers import NewtonSolver
 
@@ -48,23 +47,17 @@ def asked(impact=WHOLE, **parts):
 
 ONE_WALL, WAY = WHOLE.replace(opposite_wall=1.0), '.*model = "euler_bernoulli"'
 REFUSED = [
-    (lambda: run(contact=Rigid(), integrator=GeneralizedAlpha()), "newmark"),
-    (lambda: run(contact=Rigid(), integrator=Trapezoidal()), "gamma above 0.5"),
-    (lambda: run(contact=SegmentFriction(), element=GeometricallyExact()), "ancf_cable"),
-    (lambda: run(contact=SegmentFriction(), integrator=RK44()), "implicit"),
+    (lambda: run(contact=Rigid(), integrator=Newmark(gamma=0.5)), "gamma above 0.5"),
     (lambda: run(SHORT.replace(axial_force=1.0), contact=SegmentFriction()), "axial force does not act .*got .* 1.0"),
     (lambda: run(save=0), "save"),
     (lambda: run(mesh=NODES, end_time=5.0), r"mesh.places .* 4.0 .*got 2.0"),
     (lambda: run(mesh=UniformMesh(1.9e-5)), "200000 are the most"),
-    (lambda: run(end_time=math.nan), "end_time"),
     (lambda: run(Impact.dimensionless(0.5, length=100.0), geometry=TrueGeometry()), "right angle"),
     # settings
-    (lambda: table("integrator", kind="generalized_alpha", spectral_radus=0.5), "spectral_radius"),
     (lambda: table("integrator", kind="newmark", gamma=1e300), "integrator.gamma"),
     (lambda: table("contact", kind="penalty", relative_stiffness=-1.0), "relative_stiffness must be positive"),
     (lambda: table("geometry", kind="linear", amplitude=0.0), "amplitude"),
     (lambda: table("solver", kind="newton", halve_steps=1), "halve_steps must be true or false"),
-    (lambda: table("mesh", element_length=0.1), r"mesh\.kind is required"),
     (lambda: Penalty(stiffness=1.0, relative_stiffness=1.0), "exclude each other"),
     (lambda: RK44(time_step=1e-3, safety=0.5), "safety has no effect next to time_step"),
     (lambda: asked(SHORT, contact=SegmentFriction(relative_friction_damping=2.0)), "friction_damping has no effect"),

@@ -12,7 +12,6 @@ from bent_beam.measure.balance import balance_of
 from bent_beam.measure.whole_impact import whole_impact
 from bent_beam.meshes import UniformMesh
 from exudyn_models import ExudynModel
-from exudyn_models.contacts.penalty import covered
 from hermite_fe import HermiteFE
 
 HINGED = {"left_end": "hinged", "right_end": "hinged"}
@@ -30,8 +29,8 @@ def agree(impact: Impact, end: float, tolerance: float, refine: float = 0.25):
     return histories
 
 
-@pytest.mark.parametrize("method", [ExudynModel(refine=0.15), HermiteFE(refine=0.2)], ids=lambda method: method.path)
-def test_a_hinged_beam_swings_in_its_first_mode_and_a_clamped_one_in_its_own(method) -> None:
+def test_a_hinged_beam_swings_in_its_first_mode_and_a_clamped_one_in_its_own() -> None:
+    method = ExudynModel(refine=0.15)
     for ends, beta in ((HINGED, np.pi), (dict.fromkeys(HINGED, "clamped"), 4.730040744862704)):
         impact = Impact(1.0, 1.0, 2.0, 1e-3, 1e-6, wall_from=0.5, wall_to=0.6, **ends)  # the wall is out of reach
         omega = beta**2 / 4.0
@@ -74,13 +73,6 @@ def test_a_clamped_beam_meets_a_plate_at_its_tip_with_all_points_that_stand_befo
     assert not missed.array("total_impulse").any() and not missed.array("impulse").any()
 
 
-def test_the_covered_length_of_a_straight_rim_is_exact_and_grows_without_jumps() -> None:
-    x = np.array([-1.0, -0.7, -0.2, 0.0, 0.5, 1.0])
-    for rim in np.linspace(-0.9, 0.9, 37):
-        assert covered(rim - x, np.diff(x)).sum() == pytest.approx(1.0 + rim)
-        assert covered(x - rim, np.diff(x)).sum() == pytest.approx(1.0 - rim)
-
-
 @pytest.mark.parametrize("velocity", [1e-3, 1e-6])
 def test_a_load_bends_a_hinged_beam_to_its_rest_however_slowly_it_came(velocity: float) -> None:
     """5pL⁴/(384 EI), away from the wall: what the load makes of the velocity is no instability."""
@@ -94,39 +86,22 @@ def test_a_load_bends_a_hinged_beam_to_its_rest_however_slowly_it_came(velocity:
 STIFFNESS = 1e4  # EI = μ = V₀ = 1
 
 
-def run(kappa_over_nu: float, ratio: float = 0.0, refine: float = 1.0, end: float = 4.0, path=ExudynModel):
+def run(kappa_over_nu: float, ratio: float, refine: float, path=ExudynModel):
     wall = {"wall_stiffness": STIFFNESS, "wall_damping": 2.0 * ratio * math.sqrt(STIFFNESS)}
     impact = Impact.dimensionless(kappa_over_nu).replace(**wall)
-    return path(refine=refine).simulate(impact, end_time=end / math.sqrt(STIFFNESS), save=40)
-
-
-def share(history, name: str) -> float:
-    budget = history.energy_budget()
-    return budget[name] / budget["initial_energy"]
-
-
-def test_springs_give_back_what_they_took_and_dashpots_take_energy_and_push_earlier() -> None:
-    elastic, damped = run(2.0, refine=0.5, end=6.0), run(2.0, 0.5, refine=0.5, end=6.0)
-    held = elastic.array("contact_energy")
-    assert held[0] == 0.0 and held.max() > 0.01 * elastic.energy_budget()["initial_energy"]
-    assert held[-1] < 0.5 * held.max()
-    assert abs(share(elastic, "loss_impact")) < 1e-5 and share(elastic, "loss_wall") == 0.0
-    assert elastic.array("peak_pressure")[-1] == pytest.approx(STIFFNESS * elastic.array("peak_penetration")[-1])
-    assert share(damped, "loss_wall") > 0.01 > abs(share(damped, "loss_impact"))
-    assert max(abs(share(history, "defect")) for history in (elastic, damped)) < 1e-6
-    for name in ("peak_force", "peak_force_time"):
-        assert damped.array(name)[-1] < elastic.array(name)[-1]
+    return path(refine=refine).simulate(impact, end_time=4.0 / math.sqrt(STIFFNESS), save=40)
 
 
 @pytest.mark.parametrize(("ratio", "refine", "exact"), [(0.0, 0.4, 4.596), (0.0, 0.8, 4.596), (1.0, 0.8, 3.392)])
 def test_the_largest_force_before_an_elastic_wall_does_not_depend_on_the_mesh(ratio, refine, exact):
     """F = f V₀√μ(EI k)^¼ with f(0.5, ζ) of the theory; a penalty of the elements' own would grow with 1/Δx, and
     dashpots of whole elements push 2.6 % more."""
-    force = run(0.5, ratio, refine=refine).array("peak_force")[-1] / STIFFNESS**0.25
+    force = run(0.5, ratio, refine).array("peak_force")[-1] / STIFFNESS**0.25
     assert force == pytest.approx(exact, rel=3e-3)
 
 
-WITHIN = {"peak_force": 5e-4, "peak_force_time": 8e-3, "peak_penetration": 5e-4, "peak_pressure": 1e-3}
+WITHIN = {"peak_force": 5e-4, "peak_force_time": 8e-3, "peak_penetration": 5e-4, "peak_pressure": 1e-3,
+          "total_impulse": 2e-4, "loss_wall": 5e-3, "contact_energy": 5e-3}  # fmt: skip
 
 
 @pytest.mark.parametrize(
@@ -137,7 +112,7 @@ def test_both_paths_agree_on_every_number_of_a_damped_wall(seed: int, refine: fl
     draw = np.random.default_rng(seed)
     drawn = float(draw.uniform(0.1, 2.0)), float(draw.uniform(0.1, 1.0))
     exudyn, hermite = (run(*drawn, refine=refine, path=path) for path in (ExudynModel, HermiteFE))
-    for name, within in (WITHIN | {"total_impulse": 2e-4}).items():
+    for name, within in WITHIN.items():
         ours, theirs = exudyn.array(name)[-1], hermite.array(name)[-1]
         assert ours == pytest.approx(theirs, rel=within), (name, drawn)
 
