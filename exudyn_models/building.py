@@ -169,11 +169,8 @@ def _sensors(beam: Beam, contact: ContactRun, copies: float) -> dict[str, int]:
     middle = beam.vertical[int(np.argmin(np.abs(beam.shape.s)))]
 
     def state() -> tuple[Array, Array]:
-        data = mbs.systemData
-        return (
-            data.GetODE2Coordinates()[: beam.size] / lengths,
-            data.GetODE2Coordinates_t()[: beam.size] * units.time / lengths,
-        )
+        q, v = mbs.systemData.GetODE2Coordinates(), mbs.systemData.GetODE2Coordinates_t()
+        return q[: beam.size] / lengths, v[: beam.size] * units.time / lengths
 
     at_first = float(state()[1] @ beam.momentum)
 

@@ -36,6 +36,7 @@ Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 Indices = NDArray[np.int64]
 
+POINTS, WEIGHTS = np.polynomial.legendre.leggauss(4)  # of an element, −1 … 1
 STEEPEST = 1e-4  # slope in the linear limit: at 2e-3 the energy budget of a whole impact is 8e-6 off
 MODE_SLOPE = 6.0  # over V₀/(L/2): that of the lowest mode of any ends is half of it
 MOVED = 2.0  # fronts' bounds from the centre: beyond, the beam keeps the shape that it came with
@@ -166,9 +167,8 @@ def _arc(bow: Array, motion: FreeMotion, amplitude: float) -> dict[str, Array]:
 
     Four-point Gauss per element: exact to round-off for the small change of angle within one.
     """
-    points, weights = np.polynomial.legendre.leggauss(4)
-    at = bow[:-1, None] + np.diff(bow)[:, None] * (points + 1) / 2
-    weight = np.diff(bow)[:, None] * weights / 2
+    at = bow[:-1, None] + np.diff(bow)[:, None] * (POINTS + 1) / 2
+    weight = np.diff(bow)[:, None] * WEIGHTS / 2
     centre = int(np.argmin(np.abs(bow)))
 
     def integral(values: Array) -> Array:

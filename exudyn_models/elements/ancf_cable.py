@@ -19,9 +19,8 @@ from numpy.polynomial.polynomial import polyder, polyval
 from bent_beam import Impact
 from bent_beam.loads import UNSHEARED
 from exudyn_models.elements.beam import Beam, Element
-from exudyn_models.geometry import Array
+from exudyn_models.geometry import POINTS, WEIGHTS, Array
 
-POINTS, WEIGHTS = np.polynomial.legendre.leggauss(4)
 CUBICS = np.array([[1.0, 0.0, -3.0, 2.0], [0.0, 1.0, -2.0, 1.0], [0.0, 0.0, 3.0, -2.0], [0.0, 0.0, -1.0, 1.0]]).T
 AT_STRETCH, AT_BENDING, AT_ENDS = (
     tuple(np.asarray(polyval(places, polyder(CUBICS, derivative)), np.float64) for derivative in range(3))

@@ -73,12 +73,9 @@ class Beam(ABC):
     def at_first(self, i: int) -> tuple[list[float], list[float]]:
         """Displacement and velocity along x and y of node ``i`` at the first contact, for Exudyn's item."""
         shape, length = self.shape, self.units.length
-        speed = length * (1.0 / self.units.time)
-        x = (1.0 + self.stretch) * shape.x[i] - shape.s[i]
-        return [x * length, (1.0 + self.stretch) * shape.y[i] * length], [
-            shape.velocity_x[i] * speed,
-            shape.velocity_y[i] * speed,
-        ]
+        speed, stretched = length * (1.0 / self.units.time), 1.0 + self.stretch
+        place = [(stretched * shape.x[i] - shape.s[i]) * length, stretched * shape.y[i] * length]
+        return place, [shape.velocity_x[i] * speed, shape.velocity_y[i] * speed]
 
     @abstractmethod
     def node(self, i: int) -> Any:

@@ -19,7 +19,7 @@ from exudyn_models import ExudynModel, stepping
 from exudyn_models.contacts import Penalty, Rigid, SegmentFriction
 from exudyn_models.elements import ANCFCable, GeometricallyExact
 from exudyn_models.geometry import LinearLimit, TrueGeometry
-from exudyn_models.integrators import GeneralizedAlpha
+from exudyn_models.integrators import GeneralizedAlpha, Newmark
 from exudyn_models.method import held_for
 from exudyn_models.recording import nodal_largest
 from exudyn_models.segments import growing_segments
@@ -102,6 +102,13 @@ def test_nothing_is_held_once_waves_may_be_back():
     history = exudyn_models.simulate(beam, end_time=20.0 * until, mesh=mesh, contact=Penalty(hold=16))
     assert history.settings["hold"]["until"] == pytest.approx(until)
     assert np.ptp(history.array("held_impulse")[history.time >= 1.05 * until]) == 0.0
+
+
+@verify
+@pytest.mark.parametrize("part", [GeometricallyExact(), SegmentFriction(friction=0.3), Newmark(relative_step=5e-3)])
+def test_a_swapped_part_keeps_the_answer(part):
+    parts = {part.where.removeprefix("exudyn."): part}
+    assert off(exudyn_models.simulate(HALF, mesh=coarse(), save=100, **parts)) < 5e-3
 
 
 @pytest.mark.parametrize("friction", [0.0, 0.3, 1e3])  # smooth, sliding, sticking
