@@ -100,20 +100,6 @@ def test_every_path_matches_the_first_order(method, kappa, first, error_bars, li
         assert row.lambda1.covered and row.r1.covered
 
 
-@pytest.mark.verify
-@pytest.mark.parametrize("factor", [0.5, 2.0])
-@pytest.mark.parametrize(("kappa", "first"), [(0.5, (4.0, 0.0, 0.0)), (0.5, (1.0, 1.0, 1.0)), (0.8, (-1.0, -1.0, 0.0))])
-def test_the_size_of_the_loads_is_within_the_error_bars(monkeypatch, kappa, first, factor):
-    """ε → 0 is extrapolated to: with half and twice the ε λ₁ and r₁ are the same."""
-    asked = MatchQuestion(SelfSimilarFE(), kappa, first, error_bars="drift")
-    usual = answer(asked, KEEP)
-    monkeypatch.setattr(SelfSimilarFE, "perturbation", factor * SelfSimilarFE.perturbation)
-    other = answer(asked, KEEP)
-    assert other.epsilons[-1] == pytest.approx(factor * usual.epsilons[-1])
-    for one, two in zip(usual.compared().values(), other.compared().values()):
-        assert abs(one.value - two.value) < one.bar + two.bar
-
-
 def test_a_sweep_resumes_and_does_not_depend_on_jobs(tmp_path):
     asked = questions([SelfSimilarFE(refine=0.5)], [0.5, 0.25, 2.0])
     first = match(asked[:2], store=RunStore(tmp_path))

@@ -1,8 +1,8 @@
 """Tables of README and docs: a fresh run of what made them gives the same within the stated digits.
 
-A marker ``<!-- made by: bentbeam match … -->`` stands above a Markdown table. A line's first cell is a label of the
-match, or what a label begins with and κ/ν, from … to …; its numbers are those that the titles name, of these rows one
-after the other. "≤" states a bound of all of them. Exudyn's restitutions: ``exudyn_models/test_exudyn_whole_beam.py``.
+A marker ``<!-- made by: bentbeam match … -->`` stands above a Markdown table. A line's first cell names rows of it
+(:func:`named`); its numbers are those that the titles name, of these rows one after the other. "≤" states a bound of
+all of them. Restitutions: ``exudyn_models/test_exudyn_whole_beam.py``.
 """
 
 import re
@@ -15,12 +15,8 @@ from called import answered
 from here import ROOT
 from markdown_tables import cells, lines_after, stated
 
-from bent_beam import Impact
-from bent_beam.measure.whole_impact import whole_impact
-from bent_beam.method import simulate_to_separation
-from hermite_fe import HermiteFE
-from hermite_fe.integrators import MoreauJean, NonsmoothGeneralizedAlpha, SignoriniPosition
-from hermite_fe.whole_beam import ELEMENTS
+from bent_beam.measure.numbers import Number
+from comparison.rows import HELD_AGAINST
 
 MARKED = re.compile(r"<!-- made by: bentbeam ((?:match|simulate) .*?) -->\n+((?:\|[^\n]*\n)+)")
 FOUND = [
@@ -30,7 +26,6 @@ FOUND = [
 ]
 TABLES, HITS = ([one for one in FOUND if one.values[0].startswith(name)] for name in ("match", "simulate"))
 NUMBERS = {"λ₀": "lambda0", "r₀": "r0", "λ₁": "lambda1", "r₁": "r1"}
-ROUNDING = 3e-4  # hits that follow one another amplify round-off, which differs between processors (seen: 2.5e-4)
 
 fresh = cache(answered)  # lines share a command
 
@@ -43,12 +38,10 @@ def in_the_project(monkeypatch):
 def reading(row, name):
     """What a row says, in per cent where there is a theory, and how far its last digits depend on the processor."""
     if name not in NUMBERS:
-        pull = (row["hold"] or {}).get("pull", 0.0)
-        return {"lift": row["lift"], "steps": row["steps"], "pull": 100.0 * pull}[name], 0.0
-    number, of_first_order = row[NUMBERS[name]], name.endswith("₁")
-    size = max(abs(number["theory"]), 1.0 if of_first_order else 0.0)
-    noise = 10.0 * number["error"] / size if of_first_order else 0.0  # a difference of runs
-    return 100.0 * (number["value"] - number["theory"]) / size, noise
+        return (100.0 * row["hold"]["pull"] if row["hold"] else 0.0) if name == "pull" else row[name], 0.0
+    least = HELD_AGAINST[NUMBERS[name]]
+    number = Number(*(row[NUMBERS[name]][key] for key in ("value", "error", "theory")))
+    return 100.0 * number.relative(least), 10.0 * number.relative_bar(least) * least  # of first order: of two runs
 
 
 def agrees(cell, value, noise):
@@ -64,14 +57,13 @@ def agrees(cell, value, noise):
 
 
 def named(rows, first):
+    """The rows of a label, or of what a label begins with and κ/ν, from … to …"""
+    if mine := [row for row in rows if row["label"] == first]:
+        return mine
     before, _, kappas = first.rpartition("κ/ν")
     ends = [float(Fraction(number)) for number in re.findall(r"\d+(?:[./]\d+)?", kappas)]
-    return [row for row in rows if row["label"] == first] or [
-        row
-        for row in rows
-        if f"{row['label']}, ".startswith(before)
-        if 0.999 * ends[0] <= row["kappa_over_nu"] <= 1.001 * ends[-1]
-    ]
+    mine = [row for row in rows if f"{row['label']}, ".startswith(before)]
+    return [row for row in mine if 0.999 * ends[0] <= row["kappa_over_nu"] <= 1.001 * ends[-1]]
 
 
 @pytest.mark.verify
@@ -101,35 +93,6 @@ def test_the_hits_of_a_page_are_those_of_its_command(command, table):
         for title, cell in zip(titles[2:], line[2:]):
             value, unit = stated(cell)
             assert hit[names[title.partition(",")[0]]] == pytest.approx(value, abs=1.01 * unit), (title, cell)
-
-
-# --- restitutions, each of one run to the last separation -------------------------------------------------------------
-
-SCHEMES = {
-    "Signorini": SignoriniPosition(theta=0.5),
-    "Moreau": MoreauJean(theta=0.5),
-    "generalised": NonsmoothGeneralizedAlpha(spectral_radius=0.8),
-}
-PARTS = {"1": 1.0, "½": 0.5, "¼": 0.25}
-TITLES, _, *LINES = lines_after("docs/whole_impact.md", "How much the parts matter")
-RESTITUTIONS = [
-    *((HermiteFE(), kappa, damping, cell, 1e-4)
-      for kappa, damping, _, _, cell in lines_after("docs/exudyn.md", "## The whole impact")[2:]),
-    *((HermiteFE(integrator=SCHEMES[re.match(r"\w+", scheme)[0]].with_steps(PARTS[part] / ELEMENTS**2, 0.0)),
-       *title.strip("()").split(", "), cell, 0.0)
-      for scheme, part, *columns in LINES for title, cell in zip(TITLES[2:], columns)),
-]  # fmt: skip
-
-
-@pytest.mark.verify
-@pytest.mark.parametrize(("method", "kappa", "damping", "cell", "least"), RESTITUTIONS)
-def test_a_run_gives_the_restitution_of_the_page(method, kappa, damping, cell, least):
-    """To the last digit of the cell; where that is the fourth, to what rounding changes."""
-    value, unit = stated(cell)
-    within = max(1.01 * unit, ROUNDING if 0.99e-4 < unit < 1.01e-4 else least)
-    impact = Impact.whole_beam(float(kappa), relative_damping=stated(damping)[0])
-    found = whole_impact(simulate_to_separation(method, impact)).restitution
-    assert found == pytest.approx(value, abs=within)
 
 
 # --- the table *Validation*, which README and site share: commands below it give its numbers inside its bars ----------

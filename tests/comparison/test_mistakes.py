@@ -13,13 +13,13 @@ import hermite_fe
 from bent_beam import Impact, InputError
 from bent_beam.cases import EXAMPLES, load_case
 from bent_beam.meshes import UniformMesh
-from comparison import bounce, match, sweep
+from comparison import bounce, match, predict, sweep
 from exudyn_models import ExudynModel
 from hermite_fe import HermiteFE
 from hermite_fe.contacts import Contact, NodeContact, element_rows
 from hermite_fe.integrators import MoreauJean
 
-IMPACT = Impact.dimensionless(0.5, length=20.0)
+IMPACT, TUBE = Impact.dimensionless(0.5, length=20.0), EXAMPLES / "tube.toml"
 
 
 @dataclass(frozen=True)
@@ -53,6 +53,8 @@ class Mute(MoreauJean):
         (lambda: match(HermiteFE(), kappa_over_nu=[0.5, 0.5]), r"kappa_over_nu has a value twice \(got \[0.5, 0.5\]\)"),
         (lambda: match(HermiteFE(), kappa_over_nu=[0.5], refine=[1.0, 1.0]), "refine has a value twice"),
         (lambda: sweep({}, {"impact.velocity": 3.0}), r"impact.velocity takes its values in a list, .*\(got 3.0\)"),
+        (lambda: sweep(TUBE, {"impact.velocity": [1.0, float("nan")]}), "vary: impact.velocity must be"),
+        (lambda: predict(TUBE, [0.001, 0.002]), "times must be a finite number"),
     ],
 )
 def test_a_mistake_of_extension_is_one_sentence_that_says_what_to_write(made, said):
@@ -63,18 +65,17 @@ def test_a_mistake_of_extension_is_one_sentence_that_says_what_to_write(made, sa
 
 def test_what_is_said_twice_or_has_no_effect_is_refused_by_its_name() -> None:
     both = ["mesh.kind=uniform", "mesh.element_length=0.05", "hermite.mesh.kind=uniform"]
-    twice = load_case(EXAMPLES / "tube.toml", [*both, "hermite.mesh.element_length=0.02"])
+    twice = load_case(TUBE, [*both, "hermite.mesh.element_length=0.02"])
     with pytest.raises(InputError, match=r"\[mesh\] and \[hermite.mesh\] say the same: give one of them"):
         twice.method("hermite")
-    chosen = load_case(EXAMPLES / "tube.toml", [*both[:2], "hermite.mesh.kind=auto"]).method("hermite")
+    chosen = load_case(TUBE, [*both[:2], "hermite.mesh.kind=auto"]).method("hermite")
     assert chosen.mesh == UniformMesh(0.05)
-    assert "--fresh has no effect" in refused("predict", EXAMPLES / "tube.toml", "--theory-only", "--fresh")
 
 
 def test_a_newcomer_starts_from_an_example_and_finds_a_key(tmp_path: Path):
     file = tmp_path / "mine.toml"
     assert answered("new", file, "--like", "tube") == {"file": str(file), "like": "tube"}
-    assert load_case(file).impact == load_case(EXAMPLES / "tube.toml").impact
+    assert load_case(file).impact == load_case(TUBE).impact
     assert tomllib.loads(file.read_text())["section"]["outer_diameter"] == 0.05
     assert "did you mean tube?" in refused("new", tmp_path / "other.toml", "--like", "tub")
     assert "--like" in refused("new", tmp_path / "other.toml", "--like", "tube", "--section", "pipe")

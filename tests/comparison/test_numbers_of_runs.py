@@ -11,7 +11,8 @@ from histories import history_of, pushed_until
 from bent_beam import Impact
 from bent_beam.measure.numbers import FACTOR, Band, Number
 from bent_beam.meshes import UniformMesh
-from comparison.bouncing import follow_hits, problem, whole_numbers, whole_reading
+from comparison.bounced import Bounce
+from comparison.bouncing import case_of, follow_hits, problem, whole_numbers, whole_reading
 from comparison.doubts import energy_residual, loss_warnings, numerical_loss, told_by, wide_bars
 from comparison.predicting import OF_INSTANT, instant_numbers
 from comparison.questions import Question
@@ -100,6 +101,17 @@ def test_the_bar_of_the_last_contact_holds_the_shift_of_its_beginning(other, shi
     assert number.value == pytest.approx(0.8, abs=0.03)
     assert number.parts["companion 0"] == pytest.approx(0.0, abs=1e-9)
     assert number.parts["contacts"] == pytest.approx(FACTOR * shift, abs=0.05)  # saved every 0.05 T*
+
+
+@pytest.mark.parametrize("band", [None, (2, 0)])
+def test_a_single_run_that_ends_at_the_wall_is_told_with_the_numbers_that_it_enters(band) -> None:
+    made = runs(*(whole_reading(pushed_until(end)) for end in (0.5, 9.0)))
+    made = dataclasses.replace(made, question=Question(problem(2.0, 0.0 if band else 1e-3), COARSE, band=band))
+    found = Bounce(case_of(made.question.impact), whole_numbers(made), made)
+    assert found.outcome.left and not found.left and found.to_dict()["left"] is False
+    assert any("not left the wall" in warning for warning in found.warnings)
+    gone = ("restitution", "impulse", "last_contact")  # of the hit, which is not over
+    assert [found.numbers[name].value for name in gone] == [None] * 3 and found.numbers["push"] != Number()
 
 
 def test_a_beam_that_leaves_slowly_may_touch_again_where_twice_the_bar_of_its_velocity_brings_it_to_the_wall() -> None:
