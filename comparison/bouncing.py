@@ -22,7 +22,7 @@ from bent_beam.hysteresis import converges, first_mode
 from bent_beam.measure.balance import balance_of
 from bent_beam.measure.numbers import FACTOR, Band, Number
 from bent_beam.measure.whole_impact import Hit, hits, whole_impact
-from bent_beam.method import ON_WALL, Method, for_whole_beam, separation_times, time_on_wall
+from bent_beam.method import LONGEST_OF_WALL, ON_WALL, Method, for_whole_beam, separation_times, time_on_wall
 from comparison.bounced import Bounce
 from comparison.doubts import energy_at_end
 from comparison.questions import SEED, Progress, Question
@@ -36,7 +36,7 @@ Beam = Case | Impact | str | Path | Mapping[str, Any]
 TIMES = ("last_contact", "peak_moment_time")
 RUNS = 24  # of a band
 DAMPING_RATIOS = (0.0002, 0.002, 0.02)  # of the first mode: bare steel, a bar as it is held, with joints
-LONGEST, INSTANTS = 100.0, 200  # T*, of the longest run that follows hits; saved a T* of it
+INSTANTS = 200  # saved a T* of a run that follows hits
 RESTS = 10.0  # periods of the lowest mode: a hit that lasts longer is the last
 RETURNS = 2.0  # bars of the restitution: the mean velocity has one, waves move a point of the beam as much again
 LARGEST_KAPPA = 100.0  # beyond, and long before, the beam touches in one point: infinity is calculated as this
@@ -160,16 +160,16 @@ def _may_return(made: Runs, restitution: Number) -> float:
 
 
 def follow_hits(impact: Impact, method: Method, count: int, *, first: ImpactHistory) -> list[Hit]:
-    """The first ``count`` hits of a beam on its wall by one run, fewer where it is not back within :data:`LONGEST` T*
-    or comes to rest: a hit that is not over within :data:`RESTS` periods of the lowest mode, or in the time that its
-    wall needs to throw it off, is none.
+    """The first ``count`` hits of a beam on its wall by one run, fewer where it is not back within ``LONGEST_OF_WALL``
+    T* or comes to rest: a hit that is not over within :data:`RESTS` periods of the lowest mode, or in the time that
+    its wall needs to throw it off, is none.
 
     first : the run that a first hit has been read from: the first row is its own.
     Raises ``ValueError`` for what the method refuses, and between two walls.
     """
     chosen, period = for_whole_beam(method, impact), LOWEST_PERIOD * impact.slow_time_scale
     fall = impact.net_load / impact.mass_per_length  # acceleration back to the wall, m/s²
-    end, longest = 2.0 * period, LONGEST * impact.slow_time_scale
+    end, longest = 2.0 * period, LONGEST_OF_WALL * impact.slow_time_scale
     at_rest = max(RESTS * period, ON_WALL * time_on_wall(impact))
     while True:
         run = chosen.simulate(impact, end_time=end, save=separation_times(impact, end, INSTANTS))

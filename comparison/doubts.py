@@ -16,6 +16,7 @@ from bent_beam.impact import Impact
 from bent_beam.loads import unmodelled
 from bent_beam.measure.numbers import MISSING
 from bent_beam.section import Section
+from comparison.readable import with_bar
 from comparison.whole_numbers import WHOLE
 
 Energies = Mapping[str, float | None]
@@ -139,9 +140,8 @@ def loss_warnings(energy: Energies) -> list[str]:
 def yields(numbers: Mapping[str, Any], section: Section | None) -> bool | None:
     """Whether the largest stress among ``numbers``, SI, is beyond the section's yield stress; ``None`` where either is
     not known."""
-    stress, limit = numbers.get("peak_stress", MISSING), getattr(section, "yield_stress", None)
-    found = getattr(stress, "mean", stress.value)  # of a band
-    return None if limit is None or found is None else bool(found > limit)
+    found, limit = with_bar(numbers.get("peak_stress", MISSING))[0], getattr(section, "yield_stress", None)
+    return None if limit is None or found is None else found > limit
 
 
 def told_by(numbers: Mapping[str, Any], section: Section | None) -> list[str]:
@@ -149,8 +149,8 @@ def told_by(numbers: Mapping[str, Any], section: Section | None) -> list[str]:
     found, beyond = wide_bars(numbers), yields(numbers, section)
     if section is None or beyond is None:
         return found
-    stress, limit = numbers["peak_stress"], section.yield_stress or 0.0
-    if beyond or getattr(stress, "mean", stress.value) + (getattr(stress, "std", stress.bar) or 0.0) > limit:
+    (stress, bar), limit = with_bar(numbers["peak_stress"]), section.yield_stress or 0.0
+    if beyond or (stress or 0.0) + bar > limit:
         found.append(
             f"the largest stress {'is' if beyond else 'may be'} beyond the yield stress of {1e-6 * limit:.4g} MPa: all "
             "numbers are those of an elastic beam"

@@ -87,9 +87,14 @@ def unit_for(unit: str, values: Iterable[float | None]) -> tuple[float, str]:
     return (1e-3, f"k{unit}") if unit.startswith("N") and unit != "N s" and largest >= 100.0 else (1.0, unit)
 
 
+def with_bar(number: Number | Band) -> tuple[float | None, float]:
+    """Value and bar, 0 where it is not known; of a band mean and standard deviation."""
+    return (number.mean, number.std) if isinstance(number, Band) else (number.value, number.bar or 0.0)
+
+
 def in_unit(number: Number | Band, unit: str) -> list[str]:
     """``number``, in ``unit``, in the unit in which it is written, and that unit."""
-    scale, name = unit_for(unit, [number.mean if isinstance(number, Band) else number.value])
+    scale, name = unit_for(unit, [with_bar(number)[0]])
     return [str(number.scaled(scale)), name]
 
 

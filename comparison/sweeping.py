@@ -30,7 +30,7 @@ from comparison.bounced import documents
 from comparison.bouncing import bounce
 from comparison.doubts import doubts, told_by
 from comparison.predicting import numbers_at, runs_to
-from comparison.readable import flat, milliseconds, readable, text_table, unit_for
+from comparison.readable import flat, milliseconds, readable, text_table, unit_for, with_bar
 from comparison.rows import failures, reason_of
 from comparison.store import RunStore
 from comparison.whole_numbers import WHOLE
@@ -218,7 +218,7 @@ class SweepTable:
         for name, about in WHOLE.items():
             found = [row.numbers[name] for row in self.rows if name in row.numbers]
             if about.heading and found:
-                units[name] = unit_for(about.unit, [getattr(one, "mean", one.value) for one in found])
+                units[name] = unit_for(about.unit, [with_bar(one)[0] for one in found])
         titles = [*self.units.items(), *((WHOLE[name].heading, unit) for name, (_, unit) in units.items())]
         head = [f"{title}, {unit}" if unit else title for title, unit in titles]
         body = []

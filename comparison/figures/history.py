@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +16,6 @@ from bent_beam.measure.numbers import MISSING, Band, Number
 from comparison.doubts import comparable
 from comparison.figures import style
 from comparison.figures.panels import contacts, draw_force, draw_wall, heights, impulse_given, sheet
-from comparison.figures.style import Film, write_gif
 from comparison.readable import in_unit, largest_of
 from theory import predict
 
@@ -107,7 +106,6 @@ def animate(history: ImpactHistory, file: Path, end: float) -> Path:
     when, place = contacts(history)
     shapes = [heights(history, k) for k in chosen]
     high = 1e3 * max(float(height.max()) for _, height in shapes)
-    pictures: list[Any] = []
     with style.figure(2, 1, width=4.6, height=4.0, height_ratios=[1.5, 1]) as (fig, (top, below)):
         draw_wall(top, history, 0.0, 0.2e-3 * high, 1e3)
         half = 0.525 * history.impact.length
@@ -118,14 +116,16 @@ def animate(history: ImpactHistory, file: Path, end: float) -> Path:
         draw_force(below, history, end)
         below.set_xlabel("time  (ms)")
         past = below.axvline(0.0, color="black", lw=1.0)
-        film = Film(fig, (beam, touch, clock, past))
-        for k, (x, height) in zip(chosen, shapes):
-            time = history.time[k]
-            beam.set_data(x, 1e3 * height)
-            near = np.abs(when - time) <= 0.5 * end / FRAMES
-            touch.set_data(place[near], np.zeros(int(near.sum())))
-            clock.set_text(f"{1e3 * time:.3g} ms")
-            past.set_xdata([1e3 * time, 1e3 * time])
-            pictures.append(film.picture())
-    write_gif(pictures, file, PER_SECOND)
+
+        def frames() -> Iterator[None]:
+            for k, (x, height) in zip(chosen, shapes):
+                time = history.time[k]
+                beam.set_data(x, 1e3 * height)
+                near = np.abs(when - time) <= 0.5 * end / FRAMES
+                touch.set_data(place[near], np.zeros(int(near.sum())))
+                clock.set_text(f"{1e3 * time:.3g} ms")
+                past.set_xdata([1e3 * time, 1e3 * time])
+                yield
+
+        style.write_gif(fig, (beam, touch, clock, past), frames(), file, PER_SECOND)
     return file

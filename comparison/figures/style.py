@@ -150,37 +150,29 @@ def yield_line(axis: Axes, limit: float, highest: float) -> None:
     )
 
 
-class Film:
-    """Pictures of a figure in which only some artists move: the rest is drawn once, which takes nearly all the time.
+def write_gif(fig: Figure, moving: Sequence[Artist], frames: Iterable[object], file: Path, per_second: int) -> None:
+    """Write pictures of 64 colours of a figure to ``file``, atomically, to be shown over and over.
 
-    moving : what changes from picture to picture, drawn over the rest in this order.
+    moving : the artists that change from picture to picture, drawn over the rest in this order. The rest is drawn once,
+    which takes nearly all the time. frames : moves them, a picture a step.
     """
+    from PIL import Image
 
-    def __init__(self, fig: Figure, moving: Sequence[Artist]) -> None:
-        self.fig, self.moving = fig, moving
+    for artist in moving:
+        artist.set_animated(True)
+    fig.set_dpi(DPI)
+    canvas, pictures = FigureCanvasAgg(fig), []
+    canvas.draw()
+    still = canvas.copy_from_bbox(fig.bbox)
+    for _ in frames:
+        canvas.restore_region(still)
         for artist in moving:
-            artist.set_animated(True)
-        fig.set_dpi(DPI)
-        self.canvas = FigureCanvasAgg(fig)
-        self.canvas.draw()
-        self.still = self.canvas.copy_from_bbox(fig.bbox)
-
-    def picture(self) -> Any:
-        """The figure as it stands, as one picture of 64 colours."""
-        from PIL import Image
-
-        self.canvas.restore_region(self.still)
-        for artist in self.moving:
-            self.fig.draw_artist(artist)
-        pixels = np.asarray(self.canvas.buffer_rgba())[..., :3]
-        return Image.fromarray(pixels).convert("P", palette=Image.Palette.ADAPTIVE, colors=64)
-
-
-def write_gif(frames: Sequence[Any], file: Path, per_second: int) -> None:
-    """Write ``frames`` to ``file``, atomically, to be shown over and over."""
+            fig.draw_artist(artist)
+        pixels = np.asarray(canvas.buffer_rgba())[..., :3]
+        pictures.append(Image.fromarray(pixels).convert("P", palette=Image.Palette.ADAPTIVE, colors=64))
     stream = BytesIO()
-    film = {"save_all": True, "append_images": frames[1:], "duration": 1000 // per_second, "loop": 0}
-    frames[0].save(stream, format="GIF", optimize=True, **film)
+    film: Any = {"save_all": True, "append_images": pictures[1:], "duration": 1000 // per_second, "loop": 0}
+    pictures[0].save(stream, format="GIF", optimize=True, **film)
     write_atomically(file, stream.getvalue())
 
 

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
-from bent_beam.measure.numbers import Band
+from bent_beam.measure.numbers import MISSING
 from comparison.figures import style
-from comparison.readable import readable, unit_for
+from comparison.readable import readable, unit_for, with_bar
 from comparison.sweeping import SweepTable, numeric
 from comparison.whole_numbers import WHOLE
 
@@ -48,14 +48,8 @@ def sweep_figure(found: SweepTable) -> Any:
 
 def _values(found: SweepTable, name: str) -> list[tuple[float, float] | None]:
     """Value and bar of each row, or mean and standard deviation; ``None`` where it has none."""
-    pairs: list[tuple[float, float] | None] = []
-    for row in found.rows:
-        number = row.numbers.get(name)
-        if isinstance(number, Band):
-            pairs.append((number.mean, number.std))
-        else:
-            pairs.append((number.known, number.bar or 0.0) if number is not None and number.measured else None)
-    return pairs
+    pairs = (with_bar(row.numbers.get(name, MISSING)) for row in found.rows)
+    return [None if value is None else (value, bar) for value, bar in pairs]
 
 
 def _grid(found: SweepTable, name: str) -> tuple[Any, Any, str]:

@@ -115,11 +115,13 @@ def test_a_damping_that_is_not_stated_is_answered_over_three_and_one_that_is_sta
 
 
 def test_a_pull_as_large_as_the_buckling_load_leaves_half_of_a_bow_and_a_tenth_of_it_is_not_worth_a_word() -> None:
-    """A half sine of height b rests at b/(1 + NL²/(π²EI))."""
+    """A half sine of height b rests at b/(1 + NL²/(π²EI)). In units EI = μ = V₀ = 1 no bow is steep."""
     beam = Impact(4.0, 1.0, 2.0, 0.1, 1.0)
     said = {share: doubts(beam.replace(axial_force=share * np.pi**2), None) for share in (1.0, 0.09, -0.09, -0.9)}
     assert "straightens it (at rest to about 50 % of its height)" in said[1.0][0] and said[0.09] == said[-0.09] == []
     assert "bends it further (at rest to about 1000 % of its height)" in said[-0.9][0]
+    steep = Impact(4.0, 1.0, 2.0, 0.3, 1.0)
+    assert "slope at its ends is 0.3" in doubts(steep, None)[0] and doubts(Impact(1.0, 1.0, 2.0, 1.0, 1.0), None) == []
     held = Impact(4.0, 1.0, 2.0, 0.1, 1.0, axial_force=np.pi**2, tension_direction="tangent", acceleration=0.0)
     assert doubts(held, None) == []  # by other forces
     assert doubts(beam.replace(axial_force=-0.9 * np.pi**2, natural_curvature=0.0), None) == []  # likewise
