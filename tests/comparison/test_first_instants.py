@@ -16,7 +16,7 @@ from bent_beam.meshes import UniformMesh
 from comparison.bouncing import case_of
 from comparison.simulating import simulate_case
 from exudyn_models import ExudynModel
-from exudyn_models.contacts import Penalty, Rigid
+from exudyn_models.contacts import Penalty
 from exudyn_models.elements import ANCFCable
 from exudyn_models.geometry import LinearLimit
 from exudyn_models.integrators import GeneralizedAlpha
@@ -27,13 +27,12 @@ from hermite_fe.integrators import GeneralizedAlphaPenalty
 from theory import peak_moment as largest_moment
 from theory import predict
 
-verify = pytest.mark.verify
 BEAM = {"bending_stiffness": 1.0, "mass_per_length": 1.0, "length": 2.0, "velocity": 1.0}
 
 
-def simulated(end: float, contact: Any = None, **beam: Any) -> tuple[ImpactHistory, ImpactHistory]:
+def simulated(end: float, **beam: Any) -> tuple[ImpactHistory, ImpactHistory]:
     """By Hermite elements and by Exudyn, at half the resolution, up to ``end``, T* of the beam of half length 1."""
-    impact, methods = Impact(**BEAM, **beam), (HermiteFE(refine=0.5), ExudynModel(refine=0.5, contact=contact))
+    impact, methods = Impact(**BEAM, **beam), (HermiteFE(refine=0.5), ExudynModel(refine=0.5))
     hermite, exudyn = (method.simulate(impact, end_time=end, save=100) for method in methods)
     return hermite, exudyn
 
@@ -99,13 +98,9 @@ def test_before_a_curved_wall_the_slope_is_that_of_the_deflection_and_both_paths
     assert moments[0] == pytest.approx(moments[1], rel=0.05)
 
 
-@pytest.mark.parametrize(
-    ("kappa_over_nu", "contact"),
-    [(1.2, None), *(pytest.param(*one, marks=verify) for one in ((2.5, None), (1.2, Rigid())))],
-)
-def test_a_beam_that_touches_in_a_point_bends_by_the_step_in_velocity(kappa_over_nu: float, contact: Any) -> None:
+def test_a_beam_that_touches_in_a_point_bends_by_the_step_in_velocity() -> None:
     """V₀√(EIμ) from the first instant on: the stiff contact of a mesh bends it more, for a few steps."""
-    for history in simulated(0.004, contact, curvature=kappa_over_nu):
+    for history in simulated(0.004, curvature=1.2):
         assert peak_moment(history).moment == pytest.approx(1.0, rel=2e-3)
 
 
@@ -117,22 +112,14 @@ def test_both_paths_agree_on_moment_and_front_of_a_zone_that_damping_lifts():
     assert fronts[1] == pytest.approx(fronts[0], rel=0.01)
 
 
-@pytest.mark.parametrize(
-    "loads",
-    [
-        {"axial_force": 1.5, "tension_direction": "tangent"},
-        *(pytest.param(load, marks=verify) for load in ({"axial_force": 1.5}, {"curvature_rate": 0.5})),
-    ],
-)
-def test_once_waves_return_both_paths_keep_the_same_books_of_free_ends(loads: dict[str, Any]) -> None:
+def test_once_waves_return_both_paths_keep_the_same_books_of_free_ends() -> None:
     """Energy of bending alone is strain energy; an axial force works on the bow. No end bears a moment."""
-    hermite, exudyn = simulated(0.2, curvature=1.25, damping=4e-3, **loads)
+    hermite, exudyn = simulated(0.2, curvature=1.25, damping=4e-3, axial_force=1.5, tension_direction="tangent")
     assert exudyn.settings["ends"] == "free"
     for name in ("kinetic_energy", "strain_energy", "work_of_loads"):
         pairs = [(h.array(name)[-1] / h.array("kinetic_energy")[0]) for h in (hermite, exudyn)]
         assert pairs[1] == pytest.approx(pairs[0], rel=0.01, abs=2e-3), name
-    work = abs(hermite.array("work_of_loads")[-1]) / hermite.array("kinetic_energy")[0]
-    assert (work > 0.01) == ("axial_force" in loads)
+    assert abs(hermite.array("work_of_loads")[-1]) > 0.01 * hermite.array("kinetic_energy")[0]
 
 
 def test_a_pressed_zone_ends_where_theory_says_with_its_impulse() -> None:
@@ -202,7 +189,6 @@ def test_the_largest_moment_so_far_holds_that_of_a_damped_start(kappa, peak, dam
         ("hermite", 0.2, 1.277, 0.006),
         ("hermite", -0.2, 0.760, 0.003),
         ("self_similar", -0.2, 0.760, 0.003),
-        pytest.param("self_similar", 0.2, 1.277, 0.006, marks=verify),
     ],
 )
 def test_a_zone_that_does_not_spread_as_the_root_of_time_is_as_long_as_by_another_code(path, load, half, error):

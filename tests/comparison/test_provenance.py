@@ -10,7 +10,6 @@ from bent_beam import stored
 
 ROOMS = ("comparison", "bent_beam_programs")
 STORED = [f for room in ROOMS for f in sorted((ROOT / room).rglob("*.json")) if "versions" in f.read_text()]
-MADE = re.compile(r"<!-- made by: (bentbeam|python -m) ([^>]*?) -->")
 CODE = '''"""What it is about."""
 
 
@@ -79,12 +78,6 @@ def test_numbers_are_stale_once_code_or_settings_change_and_not_for_words(tmp_pa
     document = stored.read(file)
     file.write_text(json.dumps(document | {"settings": {"mesh": 4}}))
     assert stored.is_stale(file)
-
-
-def test_the_commands_named_beside_numbers_exist():
-    for page in (ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))):
-        for program, words in MADE.findall(page.read_text()):
-            assert exists(program, words), f"{page.name}: {program} {words}"
 
 
 @pytest.mark.parametrize("file", STORED, ids=lambda file: file.name)

@@ -31,6 +31,7 @@ BASES = [EXACT]
 if FUZZ:
     RANDOM = random.Random(SEED)
     BASES += [{unit: 4.0 ** RANDOM.randint(-15, 15) for unit in EXACT} for _ in range(6)]
+FALLING = Impact.whole_beam(2.0, relative_damping=1e-2)
 simulated = cache(run)
 
 
@@ -54,7 +55,7 @@ def test_every_number_of_a_run_changes_with_its_unit(kind, base):
 
 
 def test_hits_that_follow_change_with_their_units():
-    impact, found = Impact.whole_beam(2.0, relative_damping=1e-2).replace(acceleration=0.3), []
+    impact, found = FALLING.replace(acceleration=0.3), []
     for one, metre in ((impact, 1.0), (in_units(impact, EXACT), EXACT["m"])):
         method = HermiteFE(mesh=UniformMesh(metre / 20.0)).for_whole_beam(one)
         found.append(follow_hits(one, method, 2, first=method.simulate_to_separation(one)))
@@ -76,15 +77,13 @@ def test_a_stored_history_is_enough_to_run_it_again_and_then_is_the_same_bit_for
 
 @pytest.mark.parametrize("parts", [{"contact": Rigid()}, {"integrator": RK44()}], ids=["rigid", "explicit"])
 def test_a_run_whose_solver_has_settings_without_effect_is_run_again(parts):
-    impact = Impact.whole_beam(2.0, relative_damping=1e-2)
-    history = ExudynModel(mesh=UniformMesh(1 / 10), **parts).simulate(impact, end_time=0.01, save=4)
-    assert rerun_history(history)["identical"]
+    method = ExudynModel(mesh=UniformMesh(1 / 10), **parts)
+    assert rerun_history(method.simulate(FALLING, end_time=0.01, save=4))["identical"]
 
 
 @pytest.mark.parametrize(("wall", "contact"), [(None, Penalty(stiffness=1e5)), (1e3, None)])
 def test_an_exudyn_run_to_separation_is_run_again_as_far_as_it_went(wall, contact):
     method = ExudynModel(mesh=UniformMesh(1 / 16), contact=contact)
-    impact = Impact.whole_beam(2.0, relative_damping=1e-2).replace(wall_stiffness=wall)
-    history = method.simulate_to_separation(impact, save=100)
+    history = method.simulate_to_separation(FALLING.replace(wall_stiffness=wall), save=100)
     assert history.settings["save"][-1] == pytest.approx(history.time[-1], rel=1e-2)
     assert rerun_history(history)["identical"]
