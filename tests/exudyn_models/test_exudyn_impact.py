@@ -2,6 +2,7 @@
 
 import itertools
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -17,9 +18,10 @@ from comparison.rows import MatchQuestion
 from comparison.store import RunStore
 from exudyn_models import ExudynModel, stepping
 from exudyn_models.contacts import Penalty, Rigid, SegmentFriction
+from exudyn_models.contacts.base import HeldStrip
 from exudyn_models.elements import ANCFCable, GeometricallyExact
 from exudyn_models.geometry import LinearLimit, TrueGeometry
-from exudyn_models.integrators import GeneralizedAlpha, Newmark
+from exudyn_models.integrators import Averages, GeneralizedAlpha, Newmark
 from exudyn_models.method import held_for
 from exudyn_models.recording import nodal_largest
 from exudyn_models.segments import growing_segments
@@ -166,6 +168,14 @@ def test_constraints_meet_the_theory_on_a_flat_wall(kappa_over_nu, elements):
     assert np.abs(rigid.array("gap")[-1, inside]).max() < 1e-6 * 0.1
 
 
+def test_so_many_nodes_behind_the_front_are_held_until_waves_may_be_back():
+    wall = SimpleNamespace(nodes=np.arange(8), centre=0, explicit=False, lifts=False, waves_return=0.5)
+    strip = HeldStrip(wall, hold=2, start=0.1)
+    strip.captured[:5] = True
+    held = [np.flatnonzero(strip.wanted(time)).tolist() for time in (0.05, 0.3, 0.5)]
+    assert held == [[0, 1, 2, 3, 4], [3, 4], []]
+
+
 @pytest.mark.parametrize("element", [ANCFCable(), GeometricallyExact()], ids=lambda e: type(e).__name__)
 @pytest.mark.parametrize(
     ("psi", "chi", "tension", "within"), [(0.3, 0.2, 0.0, 2e-5), (0.0, 0.0, 1.0, 2e-4), (0.0, 0.0, -1.0, 2e-4)]
@@ -173,13 +183,23 @@ def test_constraints_meet_the_theory_on_a_flat_wall(kappa_over_nu, elements):
 def test_without_contact_y0_is_the_motion(psi, chi, tension, within, element):
     impact = Impact.dimensionless(0.5, epsilon_alpha=0.4, epsilon_psi=psi, epsilon_chi=chi, epsilon_axial=tension)
     mesh = NodesMesh(tuple(np.linspace(0.0, 2.0, 41)))
-    history = exudyn_models.simulate(impact, mesh=mesh, element=element, contact=NO_WALL, end_time=0.5)
+    parts = {"mesh": mesh, "element": element, "contact": NO_WALL}  # both ends of cables, half a beam of the others
+    history = exudyn_models.simulate(impact, end_time=0.5, full_beam=element == ANCFCable(), **parts)
     x, t = history.array("x"), history.time[-1]
     y0 = t - 0.25 * x**2 + 0.2 * t**2 + 0.5 * chi * x**2 * t + psi * x**4 / 24
     # the two-node element interpolates a quartic at second order, the cable exactly but for its shape
     assert_allclose(-history.array("gap")[-1], y0, atol=2e-3 if psi and element == GeometricallyExact() else within)
     budget = history.energy_budget()
     assert abs(budget["defect"]) < 1e-6 * budget["initial_energy"]
+
+
+def test_forces_of_steps_are_averaged_by_the_recurrence_of_generalised_alpha():
+    forces, averages = [[1.0], [3.0], [-2.0]], [0.5]
+    for before, now in ((1.0, 3.0), (3.0, -2.0)):  # (1−αm) φ₁ + αm φ₀ = (1−αf) f₁ + αf f₀
+        averages.append((0.6 * now + 0.4 * before - 0.3 * averages[-1]) / 0.7)
+    impulses, last = Averages(0.8, 0.3, 0.4).impulses(np.array(forces), np.array([0.5]))
+    assert_allclose(impulses[:, 0], 0.2 * np.array(averages[:-1]) + 0.8 * np.array(averages[1:]), rtol=1e-14)
+    assert last == pytest.approx(averages[-1])
 
 
 def test_the_largest_moment_of_a_node_is_the_larger_of_its_two_sides():

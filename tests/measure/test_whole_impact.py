@@ -102,6 +102,15 @@ def test_what_a_hit_loses_is_what_loads_do_not_give_and_it_is_where_it_pushes() 
     assert whole_impact(run).supplied == pytest.approx(1.0 + 0.4 * 0.495)
 
 
+def test_the_restitution_of_a_held_beam_is_of_its_mean_velocity_when_the_push_ends() -> None:
+    """Its supports push, too: the velocity goes on changing, and the push ends between two saved instants."""
+    time = np.linspace(0.0, 4.0, 81)
+    velocity = np.where(time < 0.5, 1.0, -0.4 - 2.0 * (time - 0.5))[:, None]
+    beam = Impact.whole_beam(2.0).replace(left_end="hinged")
+    held = whole_impact(recorded(time, np.outer(np.minimum(time, 0.5), np.ones(5)), velocity=velocity, impact=beam))
+    assert held.restitution == pytest.approx(0.4 + 2.0 * (held.last_contact - 0.5)) and held.last_contact != 0.5
+
+
 def test_a_contact_before_one_wall_stays_one_while_the_other_pushes_too() -> None:
     """However often the run is saved: 0 to 0.5 T* in front, 0.2 to 0.4 T* behind."""
     for count in (41, 401):
@@ -161,13 +170,14 @@ def test_a_moment_counts_once_a_wave_has_passed_ten_of_the_shortest_elements() -
     lie within √(cη) and the beam's own damping makes it smooth; that of a damped beam may have been its largest."""
     time, x = np.linspace(0.0, 0.4, 4001), np.array([0.0, 0.002, 0.3, 0.6, 1.0])
     impulse = np.minimum(time, 0.2)[:, None] * (x == 0.0)
-    for peak, damping, counts in ((2.5e-4, 0, False), (7.5e-4, 0, True), (2.5e-4, 3e-5, False), (2.5e-4, 4e-5, True)):
+    cases = [(2.5e-4, 0.7, 0, False), (7.5e-4, 0.7, 0, True), (2.5e-4, 0.7, 3e-5, False), (2.5e-4, 0.7, 4e-5, True)]
+    for peak, high, damping, counts in [*cases, (2.5e-4, 3.0, 3e-5, False)]:  # no more than V₀√(EIμ)
         impact = Impact.whole_beam(2.0, relative_damping=damping)
-        moment = np.where(np.abs(time - peak) < 1e-4, 0.7, 0.4)
+        moment = np.where(np.abs(time - peak) < 1e-4, high, 0.4)
         moments = {"largest_moment": moment, "largest_moment_place": 0.0 * time, "largest_midspan_moment": moment}
         found = whole_impact(recorded(time, impulse, x=x, impact=impact, **moments))
-        assert found.peak_moment == pytest.approx(0.7 if counts else 0.4)
-        assert found.moment_left_out == pytest.approx(0.7 if damping and not counts else 0.0)
+        assert found.peak_moment == pytest.approx(high if counts else 0.4)
+        assert found.moment_left_out == pytest.approx(min(high, 1.0) if damping and not counts else 0.0)
 
 
 def test_a_beam_that_has_left_does_not_return_and_one_that_swings_as_wide_as_it_is_away_may() -> None:
