@@ -53,6 +53,7 @@ def odd(law, sticks=True):
 REFUSED = [
     # arguments
     (lambda: simulate(SHORT, end_time=0.0), r"end_time must be positive \(got 0.0\)"),
+    (lambda: simulate(SHORT, end_time=float("nan")), "end_time must be a finite number"),
     (lambda: simulate(SHORT, save=1), "save must be"),
     (lambda: simulate(SHORT, mesh=UniformMesh(1e-9)), r"^mesh\.element_length is too small"),
     (lambda: simulate(Impact.dimensionless(0.5, epsilon_psi=1.0, length=40.0)), "into the wall before the impact"),
@@ -80,6 +81,7 @@ REFUSED = [
     (lambda: massless(contact=MiddleContact()), r'contact.kind must be "alternate"'),
     (lambda: massless(contact=AlternateContact(restitution=0.5)), r"restitution must be 0 \(got 0.5\)"),
     (lambda: massless(contact=AlternateContact(hold=4)), r"contact\.hold has no effect"),
+    (lambda: massless(SHORT.replace(damping=1e-3)), r"no damping"),
     (lambda: massless(SHORT.replace(hysteretic_loss=0.02, loss_frequency=1.0)), r"hysteretic_loss"),
     (lambda: massless(SHORT.replace(shear_stiffness=50.0)), r"shear_stiffness"),
     (lambda: massless(SPRINGS, contact=None), r"integrator.kind"),
