@@ -266,6 +266,15 @@ def test_a_whole_impact_is_that_of_bounce_within_bars(wall: dict[str, float]) ->
 
 
 @needs_node
+def test_a_force_that_still_rises_when_the_page_gives_up_is_no_largest() -> None:
+    """As in ``bounce`` (comparison/test_bounce.py): a wall that would not throw the beam off in 100 T*."""
+    force = """given.map((k) => { const p = {...Beam.problem(Beam.impact(Beam.START), 0.01), load: 0, wall: {k, c: 0}};
+        return Answer.numbers(p, {base: Solver.simulate(p, {elements: 8, steps: 40})}).force.value; })"""
+    soft, softer = evaluated(force, [0.05, 1e-4])
+    assert softer is None and soft == pytest.approx(2.0 * math.sqrt(0.05), rel=0.05)
+
+
+@needs_node
 @pytest.mark.verify
 def test_twenty_random_beams_bounce_on_the_page_as_in_bounce() -> None:
     seed = int(np.random.default_rng().integers(10**6))

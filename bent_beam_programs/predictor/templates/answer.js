@@ -38,7 +38,7 @@ const Answer = (() => {
     let slow = 0;
     return Object.fromEntries(NAMES.map((name) => {
       const values = [base, ...Object.values(others)].map((run) => run[name]);
-      const there = values.every((value) => value !== null);
+      const there = values.every((value) => value !== null) && !base.rises[name];
       if (!there || !whole) return [name, { value: there ? base[name] : null, bar: null }];
       if (!converges(p)) {
         const mean = values.reduce((a, b) => a + b) / values.length;

@@ -85,13 +85,13 @@ const Solver = (() => {
   /** The impact of p = {kappa, eta, shear, turning, load, tension, pull, before, wall} until the beam has left, with
       `elements` a half beam and `steps` a T*. load: μa₀; tension: N; pull: what it makes of the bow at the ends;
       before: moment of the bow; wall: {k, c} or null. Numbers are those of the first hit; moment and force the largest
-      of the whole motion. Throws Error where contact does not settle. */
+      of the whole motion; rises: whether they still grow at its end. Throws Error where contact does not settle. */
   function simulate(p, { elements, steps, atPosition = false, rebound = 0, longest = given(p) }) {
     const m = model(p, elements, 1 / steps), { n, l, h, size, q, v, x, share, impulse } = m;
     const step = p.wall ? Contact.elastic({ ...m, wall: p.wall }) : Contact.rigid({ ...m, atPosition, rebound });
     const moment = new Float64Array(n), since = new Float64Array(n), scratch = new Float64Array(size);
     const found = { impulse: 0, lastContact: 0, begin: 0, apart: Infinity, moment: 0, place: 0, time: 0, force: 0,
-      left: false };
+      pressed: 0, left: false };
     const early = [[0, 0]], frames = [];
     let first = null, worst = abs(p.before);
     const keep = (t, span) => {
@@ -119,7 +119,7 @@ const Solver = (() => {
       }
       found.impulse += pushed;
       if (t <= EARLY) early.push([t, found.impulse]);
-      if (p.wall) found.force = max(found.force, pushed / h);
+      if (p.wall && pushed / h > found.force) Object.assign(found, { force: pushed / h, pressed: t });
       const j = bend(m, p, moment), bent = abs(moment[j]), span = t - frames[frames.length - 1].t;
       worst = max(worst, bent);
       if (bent > found.moment && t > UNRESOLVED) Object.assign(found, { moment: bent, place: j * l, time: t });
@@ -131,10 +131,11 @@ const Solver = (() => {
     }
     const hit = first || found, over = found.left || first !== null;
     const restitution = over ? hit.impulse / 2 - (p.load + p.pull) * hit.lastContact - 1 : null;
-    const until = min(found.lastContact + PERIOD, frames[frames.length - 1].t);
+    const end = frames[frames.length - 1].t, until = min(found.lastContact + PERIOD, end);
+    const rises = { moment: !over && found.time > end - PERIOD, force: !over && found.pressed > end - PERIOD };
     const lastContact = over ? hit.lastContact : null;
     const ends = { begin: hit.begin, apart: hit.apart, lastContact, returns: nearest(frames, m.gap, hit.lastContact) };
-    return { ...found, ...ends, impulse: over ? hit.impulse : null, restitution, until, frames, early };
+    return { ...found, ...ends, impulse: over ? hit.impulse : null, restitution, rises, until, frames, early };
   }
 
   return { simulate };

@@ -41,7 +41,7 @@ const Words = (() => {
   const percent = (ratio) => `${text(100 * ratio, 2)} %`;
 
   /** What a reader must know of the numbers; whole: whether every bar is there. */
-  function warnings(b, { restitution, moment }, problem, whole) {
+  function warnings(b, { restitution, moment, force }, problem, whole) {
     const wide = (one, least = 0) => one.bar > DOUBTS.wide * Math.max(Math.abs(one.value), least);
     const settled = Answer.converges(problem), wides = whole && settled && (wide(moment) || wide(restitution, DOUBTS.least_restitution));
     const back = restitution.value !== null && problem.load + problem.pull > 0;
@@ -54,6 +54,7 @@ const Words = (() => {
       [wides, `${COMMAND} --set hermite.refine=2 takes finer elements.`],
       [!b.shear, "Short waves are faster without shear; this page takes few elements, and its bars count that."],
       [whole && restitution.value === null, (problem.load + problem.pull > 0 ? "The loads keep the beam on the wall" : "A run ended with the beam at the wall") + ": no restitution is given."],
+      [whole && (moment.value === null || force.value === null), "A largest value still rises when the run ends: it is not given."],
       [back, "The loads bring the beam back to the wall; these numbers are those of the first hit."],
       [(b.curvature - b.wallCurvature) * b.length / 2 >= DOUBTS.steep, "The bow is steep: all this is for small slopes."],
       [Math.abs(pull) > DOUBTS.straightened && b.naturalCurvature === b.curvature, `The bow is not in equilibrium under the axial force, which ${bends}.`],
