@@ -41,6 +41,14 @@ def test_leading_order_to_a_few_hundred_thousandths(ratio, half):
     assert np.any(history.array("in_contact")[:, 1:]) == (lambda0 > 0.0)
 
 
+def test_a_refined_mesh_has_twice_the_elements_and_steps():
+    mesh, fine = ExpandingMesh(), ExpandingMesh().refined(2.0)
+    ratios = {name: getattr(fine, name) / getattr(mesh, name) for name in vars(mesh)}
+    changed = dict.fromkeys(("elements_per_wave", "interior_elements"), 2.0)
+    changed |= dict.fromkeys(("front_resolution", "growth", "step_ratio"), 0.5)
+    assert {name: ratio for name, ratio in ratios.items() if ratio != 1.0} == changed
+
+
 def test_a_nearly_flat_beam():
     """κ/ν = 1/1600, where no fixed mesh resolves the front: the held start alone is right to 0.01 %."""
     state = similarity(1 / 1600, ExpandingMesh(front_resolution=0.05))
