@@ -195,6 +195,7 @@ def test_a_beam_that_has_left_does_not_return_and_one_that_swings_as_wide_as_it_
     bends, shears = 8.0 * np.trapezoid((u**3 - u**2) ** 2, u), 2.0 * np.trapezoid((3.0 * u**2 - 2.0 * u) ** 2, u)
     for impact, yields in (
         (Impact.whole_beam(2.0), bends),
+        (Impact.whole_beam(2.0).replace(bending_stiffness=3.0), bends / 3.0),
         (Impact.whole_beam(2.0, shear_length=0.5), bends + 0.25 * shears),
     ):
         reach = math.sqrt(2.0 * 0.1 * yields)
