@@ -61,10 +61,14 @@ def test_force_and_wall_move_and_turn_the_beam_and_both_paths_agree(beam, alike)
 
 
 def test_a_force_far_from_the_first_touch_brings_the_beam_to_the_wall_there() -> None:
-    """Without one Exudyn models no more of a beam than the first touch needs, and lets it touch there alone."""
-    history = ExudynModel().simulate(pushed(1e6, 0.6), end_time=1e-4, save=50)
-    far = np.abs(history.contact_positions(-1) - 0.6) < 0.1
-    assert history.array("impulse")[-1][far].sum() > 1.0
+    """Without one Exudyn models no more of a beam than the first touch needs, and lets it touch there alone. Its usual
+    elements there are too coarse for nodes as fast as 1e3 V₀: their dashpots push before the wall is touched. It says
+    so; half of them come within 1.2 %."""
+    far, runs = [], [path.simulate(pushed(1e6, 0.6), end_time=3e-4, save=50) for path in (HermiteFE(), ExudynModel())]
+    for history in runs:
+        far.append(history.array("impulse")[-1][np.abs(history.contact_positions(-1) - 0.6) < 0.1].sum())
+    assert far[0] == pytest.approx(287.85, rel=1e-3) and far[1] == pytest.approx(far[0], rel=0.1)
+    assert runs[0].warnings == [] and "enters the wall" in runs[1].warnings[0]
 
 
 def test_a_pull_lifts_the_zone() -> None:
