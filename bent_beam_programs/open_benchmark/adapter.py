@@ -103,7 +103,7 @@ class Adapter:
 
     def digest(self) -> str:
         """Digest of source, arguments and pinned versions; for this project's own methods also of the solver's source
-        and the installed versions."""
+        and the installed versions, for a user's of what is :func:`behind` it."""
         text = repr((self.arguments, self.install, self.debian)).encode()
         if self.host:
             text += repr((source_digest(), versions())).encode()

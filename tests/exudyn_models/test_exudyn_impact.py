@@ -267,7 +267,7 @@ def test_a_beam_that_is_nearly_buckled_gets_more_elements():
 
 
 def test_what_no_theory_of_a_zone_needs_is_left_alone():
-    """One point is not held; ends that a load bends up do not touch, half as far again as the bow may reach does."""
+    """One point is not held; ends that a load bends up do not touch, the beam does out to 1.5 times its reach."""
     point, zone = (Impact.dimensionless(kappa, epsilon_psi=0.3) for kappa in (1.1, 0.3))
     assert held_for(None, point).hold == 0 < held_for(None, zone).hold
     mesh = exudyn_models.chosen_mesh(zone, 0.1).refined(1 / 4)

@@ -35,10 +35,11 @@ const Answer = (() => {
   /** Numbers of finished runs: value and bar (null while companions are missing), or mean ± std of an ensemble. */
   function numbers(p, found) {
     const whole = Object.keys(runs(p)).every((name) => found[name]), { base, ...others } = found;
+    const stays = whole && Object.values(found).some((run) => run.restitution === null); // what grows late is not the largest
     let slow = 0;
     return Object.fromEntries(NAMES.map((name) => {
       const values = [base, ...Object.values(others)].map((run) => run[name]);
-      const there = values.every((value) => value !== null) && !base.rises[name];
+      const there = values.every((value) => value !== null) && !(stays && base.late[name]);
       if (!there || !whole) return [name, { value: there ? base[name] : null, bar: null }];
       if (!converges(p)) {
         const mean = values.reduce((a, b) => a + b) / values.length;

@@ -41,6 +41,7 @@ const Plots = (() => {
     const end = largest(shown.map(({ run }) => run.until)) * scales.time;
     const high = Math.max(highest(curves), of(top.moment));
     const { x, y, width } = chart(svg, { end, high, name: "stress", label: "Largest stress" }, curves);
+    if (top.restitution === null && top.late.moment) return; // it still grows
     const [cx, cy] = [x(time), y(of(top.moment))], right = cx < 0.6 * width;
     draw(svg, "circle", { cx, cy, r: 4.5, class: "mark" });
     draw(svg, "text", { x: cx + (right ? 8 : -8), y: cy - 5, "text-anchor": right ? "start" : "end", class: "name" },

@@ -85,7 +85,7 @@ const Solver = (() => {
   /** The impact of p = {kappa, eta, shear, turning, load, tension, pull, before, wall} until the beam has left, with
       `elements` a half beam and `steps` a T*. load: μa₀; tension: N; pull: what it makes of the bow at the ends;
       before: moment of the bow; wall: {k, c} or null. Numbers are those of the first hit; moment and force the largest
-      of the whole motion; rises: whether they still grow at its end. Throws Error where contact does not settle. */
+      of the whole motion; late: whether they may still grow at its end. Throws Error where contact does not settle. */
   function simulate(p, { elements, steps, atPosition = false, rebound = 0, longest = given(p) }) {
     const m = model(p, elements, 1 / steps), { n, l, h, size, q, v, x, share, impulse } = m;
     const step = p.wall ? Contact.elastic({ ...m, wall: p.wall }) : Contact.rigid({ ...m, atPosition, rebound });
@@ -132,10 +132,10 @@ const Solver = (() => {
     const hit = first || found, over = found.left || first !== null;
     const restitution = over ? hit.impulse / 2 - (p.load + p.pull) * hit.lastContact - 1 : null;
     const end = frames[frames.length - 1].t, until = min(found.lastContact + PERIOD, end);
-    const rises = { moment: !over && found.time > end - PERIOD, force: !over && found.pressed > end - PERIOD };
+    const late = { moment: found.time > end - PERIOD, force: found.pressed > end - PERIOD };
     const lastContact = over ? hit.lastContact : null;
     const ends = { begin: hit.begin, apart: hit.apart, lastContact, returns: nearest(frames, m.gap, hit.lastContact) };
-    return { ...found, ...ends, impulse: over ? hit.impulse : null, restitution, rises, until, frames, early };
+    return { ...found, ...ends, impulse: over ? hit.impulse : null, restitution, late, until, frames, early };
   }
 
   return { simulate };

@@ -102,7 +102,7 @@
     const beyond = b.yieldStress && Beam.stress(b, found.moment.value * scales.moment) > b.yieldStress;
     const words = {
       stress: stress(found),
-      where: at,
+      where: found.moment.value === null ? "" : at,
       brief: `Largest stress ${stress(found)} ↓`,
       dampings: ratios[0] === null ? ""
         : `No damping is stated: ${over}. The numbers are those of ${percent(ratios[i])}.`,
