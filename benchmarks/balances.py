@@ -60,7 +60,7 @@ def main(words: Sequence[str] | None = None) -> int:
         found = [one for one in (judged(path, random) for _ in range(asked.runs)) if one is not None]
         for name, limit in LIMITS.get(path, ELSEWHERE).items():
             values = [value for one in found if (value := getattr(one, name)) is not None]
-            worst = max(values, default=0.0)
+            worst = max(map(abs, values), default=0.0)
             exceeded |= worst > limit
             print(f"{path:13} {name:13} worst of {len(values):2} runs {worst:8.2g}   limit {limit:8.2g}", flush=True)
     return int(exceeded)

@@ -43,7 +43,7 @@ VARIABLES: dict[tuple[str, ...], dict[str, str]] = {
         "impulse": "N s", "opposite_impulse": "N s", "contact_position": "m", "in_contact": "",
     },
     ("time",): {
-        "time": "s", "total_impulse": "N s", "held_impulse": "N s",
+        "time": "s", "total_impulse": "N s", "law_impulse": "N s", "held_impulse": "N s",
         **dict.fromkeys(("branch_energy", *ENERGIES), "J"),
         "peak_force": "N", "peak_force_time": "s", "peak_penetration": "m", "peak_pressure": "N/m",
         "largest_moment": "N m", "largest_moment_place": "m", "largest_midspan_moment": "N m",

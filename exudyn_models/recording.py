@@ -8,8 +8,9 @@ change and ¯ the mean of both ends, q̈ the accelerations in equilibrium with a
     lost in the contact            f̄_cᵀΔy_c − Δ(energy in its springs), f_c pushing against y
 
 The total impulse is what the momentum of the modelled beam lacks; with held ends it is the sum of the points' impulses.
-These pass through the averages that the scheme applies to accelerations. States are collected after each step and
-summed up many steps at a time: a run spends nearly all of its time in Exudyn.
+That of the contact law passes through the averages that the scheme applies to accelerations. It is kept beside the total
+(``law_impulse``), so that a wrong force at the wall shows. States are collected after each step and summed up many
+steps at a time: a run spends nearly all of its time in Exudyn.
 """
 
 from __future__ import annotations
@@ -137,9 +138,11 @@ class Recorder:
         gains = self._of_energy(time, q, v, a) | self._of_contact(time, q, v, force, along)
         after = {name: onwards(self.sums[name], gain) for name, gain in gains.items()}
         total = self.start_momentum + after["load_impulse"] - v @ self.momentum
-        after["impulse"] = onwards(self.sums["impulse"], self._impulses(dt, q, force, np.diff(total)))
+        of_law = self._impulses_of_law(dt, force)
+        after["law_impulse"] = onwards(self.sums["law_impulse"], of_law.sum(axis=1))
+        after["impulse"] = onwards(self.sums["impulse"], self._shared(of_law, q, np.diff(total)))
         if self.scaling.impact.supported:
-            total = after["impulse"] @ self.contact.signs
+            total = after["law_impulse"]
         y, slope = q[:, beam.vertical] - beam.shape.wall_y, beam.slope(q) - beam.shape.wall_slope
         moments = beam.bending_moments(q) + self.unbent
         now = {"time": time, "y": y, "velocity": v[:, beam.vertical], "slope": slope}
@@ -218,13 +221,17 @@ class Recorder:
             gains["loss_wall"] = products(means(dashpots), deeper)
         return gains
 
-    def _impulses(self, dt: Array, q: Array, force: Array, total: Array) -> Array:
-        """Impulse of each contact point in each step, (steps, contacts), ``total`` (steps,) being all of them."""
+    def _impulses_of_law(self, dt: Array, force: Array) -> Array:
+        """Impulse of the contact law's force at each point in each step, (steps, contacts), as the scheme averages."""
         gain, self._averaged = self.averages.impulses(force, self._averaged)
-        gain *= dt[:, None]
+        return np.asarray(gain * dt[:, None])
+
+    def _shared(self, gain: Array, q: Array, total: Array) -> Array:
+        """``gain`` of each contact point in each step, (steps, contacts), with what ``total`` (steps,) is more or less
+        shared among those that push: an explicit scheme has forces within its steps, too."""
         if self.scaling.impact.supported:  # supports take momentum, too
             return gain
-        missing = total - gain.sum(axis=1)  # what acted within the step only, and what the solver left over
+        missing = total - gain.sum(axis=1)
         weight = np.abs(gain)
         for free in np.flatnonzero((missing != 0.0) & ~weight.any(axis=1)):
             weight[free, np.argmax(self.contact.depth(q[free + 1]))] = 1.0
@@ -245,7 +252,7 @@ class Recorder:
         s, shape, front = self.scaling, self.beam.shape, self.contact.signs > 0.0
         saved = {name: np.array(values) for name, values in self.record.items()}
         if not self.pushes:  # what balances of momentum leave is round-off
-            saved |= {name: np.zeros_like(saved[name]) for name in ("total_impulse", "impulse")}
+            saved |= {name: np.zeros_like(saved[name]) for name in ("total_impulse", "law_impulse", "impulse")}
         saved["loss_impact"] = saved["contact_work"] - saved["contact_energy"] - saved.get("loss_wall", 0.0)
         # an axial force is a load: the stretch that it keeps in the beam is none of its work, nor energy of the bending
         saved["work_of_loads"] = saved["work_of_loads"] - saved["stretch_energy"] + saved["stretch_energy"][0]
@@ -263,7 +270,8 @@ class Recorder:
         if not front.all():  # contact points of the opposite wall follow those of the front
             at_contact["opposite_impulse"] = -impulse[:, ~front]
             at_contact["in_contact"] |= active[:, ~front]
-        of_time = {name: saved[name] * self.copies * s.impulse for name in ("total_impulse", "held_impulse")}
+        impulses = ("total_impulse", "law_impulse", "held_impulse")
+        of_time = {name: saved[name] * self.copies * s.impulse for name in impulses}
         of_time |= {name: saved[name] * self.copies * s.energy for name in ENERGIES if name in saved}
         largest, place, midspan = saved["moments"].T
         of_time |= {

@@ -34,9 +34,10 @@ LAST = 0.5  # of the run that is looked at: earlier, the start is not resolved
 class Balance:
     """momentum, second_moment : largest residual of the equations above in the second half of the run, over the
     largest |J| and Σ x_i² J_i (second_moment less what missing momentum at the ends would explain); points : the
-    impulses of the contact points, added up, less J, over J, at the end; initial_energy : (recorded − ½μLV₀²)/½μLV₀²
-    at t = 0, where the beam arrives with one velocity; gap_of_push : largest gap at the end of an interval in which a
-    contact point pushed, over V₀t, in the second half of the run.
+    impulses of the contact points, added up, less J, over the largest |J|, at the end, those of the contact law
+    where J is what the momentum lacks; initial_energy : (recorded − ½μLV₀²)/½μLV₀² at t = 0, where the beam arrives
+    with one velocity; gap_of_push : largest gap at the end of an interval in which a contact point pushed, over V₀t, in
+    the second half of the run.
 
     penetration : deepest node in a rigid wall, over V₀t; pull : most impulse that a contact point, not held, took back
     between two saved instants, over the most that one gave; both in the second half of the run. energy : most that the
@@ -203,11 +204,13 @@ def _of_fast_part(history: ImpactHistory) -> Array:
 
 def _points(history: ImpactHistory) -> float | None:
     """``None`` without an impulse."""
-    whole = float(history.array("total_impulse")[-1])
-    found = float(history.array("impulse", -1).sum()) * 2.0 / history.sides
-    if "opposite_impulse" in history or whole == 0.0:  # these two may cancel
-        return None
-    return found / whole - 1.0
+    total, places = history.array("total_impulse"), [history.array("impulse", -1)]
+    if "opposite_impulse" in history:
+        places.append(-history.array("opposite_impulse", -1))
+    found, whole = float(np.concatenate(places).sum()) * 2.0 / history.sides, float(np.abs(total).max())
+    if "law_impulse" in history:  # there the points share the total
+        found = float(history.array("law_impulse")[-1])
+    return (found - float(total[-1])) / whole if whole > 0.0 else None
 
 
 def _is_whole(history: ImpactHistory) -> bool:

@@ -102,11 +102,12 @@ class PenaltyRun(ContactRun):
         )
 
     def _holder(self, k: int, marker: Any) -> Any:
+        units = self.beam.units
         return items.ObjectConnectorCoordinateSpringDamper(
             markerNumbers=[self.beam.ground_marker, marker],
-            stiffness=self.stiffness[k],
-            damping=self.damping[k],
-            offset=self.wall_y[k],
+            stiffness=self.stiffness[k] * units.stiffness,
+            damping=self.damping[k] * units.damping,
+            offset=self.wall_y[k] * units.length,
             activeConnector=False,
         )
 

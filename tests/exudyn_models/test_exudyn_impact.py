@@ -10,6 +10,7 @@ from numpy.testing import assert_allclose
 
 import exudyn_models
 from bent_beam import Impact
+from bent_beam.measure.balance import balance_of
 from bent_beam.measure.estimators import leading_order
 from bent_beam.measure.moments import moments
 from bent_beam.meshes import NodesMesh, ScaleFreeMesh, UniformMesh
@@ -19,7 +20,8 @@ from comparison.store import RunStore
 from exudyn_models import ExudynModel, stepping
 from exudyn_models.contacts import Penalty, Rigid, SegmentFriction
 from exudyn_models.contacts.base import HeldStrip
-from exudyn_models.elements import ANCFCable, GeometricallyExact
+from exudyn_models.contacts.penalty import PenaltyRun
+from exudyn_models.elements import ANCFCable, Beam, GeometricallyExact
 from exudyn_models.geometry import LinearLimit, TrueGeometry
 from exudyn_models.integrators import Averages, GeneralizedAlpha, Newmark
 from exudyn_models.method import held_for
@@ -191,6 +193,26 @@ def test_without_contact_y0_is_the_motion(psi, chi, tension, within, element):
     assert_allclose(-history.array("gap")[-1], y0, atol=2e-3 if psi and element == GeometricallyExact() else within)
     budget = history.energy_budget()
     assert abs(budget["defect"]) < 1e-6 * budget["initial_energy"]
+
+
+@pytest.mark.parametrize(("owner", "name"), [(PenaltyRun, "forces"), (Beam, "loads")])
+def test_a_force_that_is_read_wrong_shows_against_the_momentum(owner, name, monkeypatch):
+    """One per cent more at the wall, or of a load, than acts in Exudyn's system."""
+    pressed = Impact.dimensionless(0.5, epsilon_alpha=2.0)
+
+    def judged():
+        return balance_of(exudyn_models.simulate(pressed, mesh=coarse(pressed), save=20))
+
+    sound, right = judged(), getattr(owner, name)
+    assert abs(sound.points) < 1e-7 and not sound.warnings
+
+    def wrong(self, *of):
+        found = right(self, *of)
+        return 1.01 * found if name == "loads" else (1.01 * found[0], *found[1:])
+
+    monkeypatch.setattr(owner, name, wrong)
+    amiss = judged()
+    assert abs(amiss.points) > 1e-3 and any("do not agree" in warning for warning in amiss.warnings)
 
 
 def test_forces_of_steps_are_averaged_by_the_recurrence_of_generalised_alpha():
