@@ -35,6 +35,7 @@ LIFTED = 0.1  # of V₀t: a larger lift counts whole, a smaller one in proportio
 INSIDE = 0.5  # of what the lift does to r₀, to λ₀: pushes off the zone act anywhere behind the front
 STUCK_FIRST = 0.4  # likewise of a load that should lift the zone and does not: springs push on, or no node is there
 LIFTED_FIRST = 2.0  # of what the lift does to r₀ and λ₀: a load moves the front of a lifted zone differently
+HITS_FIRST = 3.0  # times what a load that lifts the zone changes of hits inside it: they also act closer to the front
 MISSING_FIRST = 2.5  # of the zone's length times what its uniform reaction lacks: a zone off the wall moves the front
 
 
@@ -206,6 +207,8 @@ def first_order(
     epsilon, tail = runs[-1]
     late = tail.tau >= tail.tau[-1] / window
     reaction = tail.pressure[late] / epsilon
+    if (pressure or 0.0) < 0.0:
+        reaction = HITS_FIRST * (reaction - base.pressure[late] / epsilon)
     wanted = float(reaction.mean()) if pressure is None else max(pressure, 0.0)
     stuck = STUCK_FIRST * max(-(pressure or 0.0), 0.0) * (tail.lift[late] == 0.0)
     missing = math.sqrt(float(np.mean((np.abs(reaction - wanted) + stuck) ** 2))) * lambda0 / SIDE

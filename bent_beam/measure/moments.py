@@ -34,7 +34,8 @@ PUSH = 1e-9  # of the largest impulse of a contact point: less is round-off
 class Moments:
     """A history reduced to what the estimators need, in fast-layer units, each of shape (times,).
 
-    tau; impulse I(τ) and first moment J(τ) of one side's concentrated reaction; pressure p(τ), the uniform reaction;
+    tau; impulse I(τ) and first moment J(τ) of one side's concentrated reaction; pressure p(τ), the uniform reaction
+    (where it was not taken out, what the zone bears of I);
     front λ_c(τ); lift, the largest gap inside nine tenths of the contact zone over V₀t.
     """
 
@@ -112,6 +113,8 @@ def moments(history: ImpactHistory, *, uniform: bool | None = None) -> Moments:
             front = _centroids(turned, left, front)
         total = np.cumsum(force - pressure * front * step) + total[0]
         moment = np.cumsum(torque - pressure * front**2 / 2.0 * step) + moment[0]
+    else:  # a zone that should bear nothing
+        pressure = _smooth(time, _pressure(time, _outwards(history), front))
     unit = impact.mass_per_length * impact.length_scale * impact.velocity
     return Moments(
         tau=time / impact.time_scale,
