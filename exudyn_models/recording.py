@@ -8,7 +8,7 @@ change and ¯ the mean of both ends, q̈ the accelerations in equilibrium with a
     lost in the contact            f̄_cᵀΔy_c − Δ(energy in its springs), f_c pushing against y
 
 The total impulse is what the momentum of the modelled beam lacks; with held ends it is the sum of the points' impulses.
-That of the contact law passes through the averages that the scheme applies to accelerations. It is kept beside the total
+That of the contact law passes through the averages that the scheme applies to accelerations. It is kept beside it
 (``law_impulse``), so that a wrong force at the wall shows. States are collected after each step and summed up many
 steps at a time: a run spends nearly all of its time in Exudyn.
 """

@@ -23,7 +23,7 @@ from exudyn_models.contacts.base import HeldStrip
 from exudyn_models.contacts.penalty import PenaltyRun
 from exudyn_models.elements import ANCFCable, Beam, GeometricallyExact
 from exudyn_models.geometry import LinearLimit, TrueGeometry
-from exudyn_models.integrators import Averages, GeneralizedAlpha, Newmark
+from exudyn_models.integrators import RK44, Averages, GeneralizedAlpha, Newmark
 from exudyn_models.method import held_for
 from exudyn_models.recording import nodal_largest
 from exudyn_models.segments import growing_segments
@@ -280,6 +280,17 @@ def test_a_very_small_axial_force_changes_nothing(end, refine):
     beam, method = Impact.whole_beam(2.0), ExudynModel(refine=refine)
     pulled, free = (method.simulate(beam.replace(axial_force=n), end_time=end, save=5) for n in (1e-8, 0.0))
     assert pulled.array("total_impulse")[-1] == pytest.approx(free.array("total_impulse")[-1], rel=1e-6)
+
+
+def test_explicit_steps_stay_stable_where_waves_along_the_beam_are_the_fastest():
+    """At the very bound, of elements whose free ends swing at √170 of their axial wave's rate."""
+    beam, element = (
+        Impact.whole_beam(0.5, relative_damping=1e-3).replace(axial_force=1.0),
+        ANCFCable(axial_stiffness=1e6),
+    )
+    parts = {"mesh": UniformMesh(beam.length / 16), "integrator": RK44(safety=1.0), "element": element, "save": 20}
+    history = exudyn_models.simulate(beam, end_time=0.002 * beam.slow_time_scale, **parts)
+    assert abs(history.energy_budget()["defect"]) < 1e-4
 
 
 def test_a_beam_that_is_nearly_buckled_gets_more_elements():
