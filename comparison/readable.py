@@ -177,7 +177,7 @@ def write_answer(
 
 def hits_table(rows: Sequence[Mapping[str, Any]], names: Sequence[str]) -> str:
     """Hits by their fields ``names``, a line each."""
-    cells = [[row[name] if isinstance(row[name], str) else f"{row[name]:.4g}" for name in names] for row in rows]
+    cells = [[row[name] if isinstance(row[name], str) else shown(row[name]) for name in names] for row in rows]
     head = ["hit", *(HIT[name] for name in names)]
     table = text_table(head, [[str(number), *line] for number, line in enumerate(cells, 1)])
     both = " Where two overlap, velocities and energies are\nthose of both together." if "wall" in names else ""

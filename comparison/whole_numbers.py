@@ -58,6 +58,7 @@ HIT = {
     "restitution": "restitution",
     "energy": "energy, J",
     "lost": "lost, J",
+    "moment": "moment, N m",
 }
 BETWEEN_WALLS = tuple(name for name in HIT if name != "restitution")
-OF_ONE_WALL = ("begin", "end", "impulse", "before", "after", "restitution")
+OF_ONE_WALL = ("begin", "end", "impulse", "before", "after", "restitution", "moment")

@@ -120,16 +120,16 @@ def pull_of(history: ImpactHistory) -> float | None:
     return None if most <= 0.0 else (0.0 - least) / most  # nothing pulled: 0, not −0
 
 
-def peak_moment(history: ImpactHistory, until: float | None = None) -> PeakMoment:
+def peak_moment(history: ImpactHistory, until: float | None = None, since: int = 0) -> PeakMoment:
     """The largest bending moment anywhere, and in the middle, up to ``until`` (s; ``None``: the last instant): of all
-    steps where a history has them, otherwise at the saved instants after the first.
+    steps after the saved instant ``since`` where a history has them, otherwise at the saved instants after the first.
 
     The first instants of all steps are left out: the first touch of a mesh bends it the more the stiffer its contact is
     (κ/ν = 2.5: 1.42 V₀√(EIμ) on every mesh, where the beam has 1)."""
     count = _instants(history, until)
     told = all(name in history for name in ("largest_moment", "largest_moment_place", "largest_midspan_moment"))
     if told and count > 1:
-        first = _first_resolved(history, count)
+        first = max(_first_resolved(history, count), min(since + 1, count - 1))
         sizes = history.array("largest_moment", slice(first, count))
         k = first + int(np.argmax(sizes))
         place, middle = history.array("largest_moment_place")[k], history.array("largest_midspan_moment")[first:count]

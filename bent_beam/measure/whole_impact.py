@@ -246,7 +246,8 @@ class Hit:
     the push, m; impulse : N s, always positive.
 
     before, after : velocities of the centre of mass, m/s, positive towards the front wall; energy : kinetic, strain and
-    in springs of the wall after it, J; lost : what the energy and the work of the loads fell by meanwhile, J.
+    in springs of the wall after it, J; lost : what the energy and the work of the loads fell by meanwhile, J; moment :
+    the largest from its begin to that of the next, N m (``None`` where the steps' moments are not kept).
     """
 
     wall: str
@@ -258,6 +259,7 @@ class Hit:
     after: float
     energy: float
     lost: float
+    moment: float | None
 
     @property
     def restitution(self) -> float:
@@ -273,8 +275,9 @@ def hits(history: ImpactHistory) -> list[Hit]:
     parts = [(i, k, wall) for wall, given in rows.items() for i, k in pushes(time, given.sum(axis=1), 0.0)]
     work = history.energy("work_of_loads")
     energy = history.array("kinetic_energy") + history.array("strain_energy") - work + history.energy("contact_energy")
-    found = []
-    for group in _grouped(sorted(parts), impact, time):
+    groups = list(_grouped(sorted(parts), impact, time))
+    begins, found = [group[0][0] for group in groups] + [time.size - 1], []
+    for group, until in zip(groups, begins[1:]):
         i, k, wall = group[0][0], group[-1][1], group[0][2]
         given = rows[wall][k] - rows[wall][i]
         size = np.abs(given)
@@ -282,5 +285,6 @@ def hits(history: ImpactHistory) -> list[Hit]:
         end = 0.5 * float(time[k - 1] + time[k])
         before, after = _velocity(history, i, float(time[i])), _velocity(history, k, end)
         numbers = (place, given.sum(), before, after, energy[k] + work[k], energy[i] - energy[k])
-        found.append(Hit(wall, float(time[i]), end, *map(float, numbers)))
+        moment = peak_moment(history, float(time[until]), since=i).moment if "largest_moment" in history else None
+        found.append(Hit(wall, float(time[i]), end, *map(float, numbers), moment))
     return found

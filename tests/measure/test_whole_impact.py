@@ -13,6 +13,7 @@ from bent_beam.as_json import json_text
 from bent_beam.free_flight import LOWEST_PERIOD, Separation, cannot_return, has_left, may_return
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
+from bent_beam.measure.reduction import peak_moment
 from bent_beam.measure.whole_impact import hits, peak_times, pushes, whole_impact
 from bent_beam.meshes import UniformMesh
 from bent_beam.method import simulate_to_separation
@@ -260,6 +261,7 @@ def test_each_hit_between_two_walls_gives_the_beam_its_impulse(path, asked, leas
         sign = -1.0 if hit.wall == "front" else 1.0
         assert 2.0 * (now - before) == pytest.approx(sign * hit.impulse, rel=1e-6, abs=1e-9)
         assert hit.lost > -1e-9
+    assert max(hit.moment for hit in found) == peak_moment(history).moment > 1.01 * min(hit.moment for hit in found)
     assert sum(hit.lost for hit in found) < 1.0 and abs(history.energy_budget()["defect"]) < closes
     if path is HermiteFE:
         gap = history.array("gap")
