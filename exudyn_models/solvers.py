@@ -33,10 +33,12 @@ class NewtonSolver(Part):
 
     absolute_tolerance: Annotated[
         float | None,
-        Quantity("", "of the residual", above=0.0, absent="1e-8 (damped whole beam 1e-5, elastic wall 1e-6)"),
+        Quantity(
+            "", "of the residual", above=0.0, absent="1e-8 (damped whole beam without shear 1e-5, elastic wall 1e-6)"
+        ),
     ] = None
     relative_tolerance: Annotated[
-        float | None, Quantity("", "of the residual", above=0.0, absent="1e-5 (damped whole beam 1e-8)")
+        float | None, Quantity("", "of the residual", above=0.0, absent="1e-5 (whole beam 1e-8)")
     ] = None
     contact_tolerance: Annotated[
         float | None,

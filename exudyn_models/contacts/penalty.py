@@ -163,11 +163,19 @@ class Penalty(Contact):
     """Nodal penalty: the default."""
 
     relative_stiffness: Annotated[
-        float | None, Quantity("", "C in k = C EI/Δx⁴ per length of beam", above=0.0, absent=f"{STIFFNESS:g} or more")
+        float | None,
+        Quantity(
+            "", "C in k = C EI/Δx⁴ per length of beam", above=0.0, absent=f"{STIFFNESS:g} or more (whole beam 1.25)"
+        ),
     ] = None
     relative_damping: Annotated[
         float | None,
-        Quantity("", "D in d = D √(EIμ)/Δx²", least=0.0, absent=f"{DAMPING:g}√(C/10) (thin front: {PLASTIC:g}√(C/10))"),
+        Quantity(
+            "",
+            "D in d = D √(EIμ)/Δx²",
+            least=0.0,
+            absent=f"{DAMPING:g}√(C/10) (thin front {PLASTIC:g}, with shear {MATCHED:.3g} times that root)",
+        ),
     ] = None
     stiffness: Annotated[
         float | None, Quantity("N/m²", "k itself: N/m per m of beam, of all nodes alike", above=0.0, absent="as C says")

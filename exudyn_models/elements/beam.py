@@ -232,7 +232,7 @@ class Beam(ABC):
 @dataclass(frozen=True)
 class Element(Part, ABC):
     """What every element may be told. Viscosity shortens the stable step of explicit integrators; the axial stiffness
-    has no effect in the linear limit."""
+    has no effect in the linear limit without an axial force."""
 
     where: ClassVar[str] = "exudyn.element"
     beam: ClassVar[type[Beam]]
