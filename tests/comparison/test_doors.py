@@ -132,6 +132,8 @@ def test_of_two_runs_of_the_whole_beam_both_halves_are_compared_and_drawn() -> N
     assert apart(early, late, "total_impulse") == pytest.approx(0.0)  # where both are
     energies = [full(time, part * x, kinetic_energy=part * (2.0 - time)) for part in (1.0, 0.5)]
     assert apart(*energies, "kinetic_energy") is None  # of unlike parts of a beam
+    half = history_of(time, x[2:], kinetic_energy=2.0 - time)
+    assert apart(half, energies[0], "kinetic_energy") == pytest.approx(0.0)
     small = [full(time, x, total_impulse=share * time) for share in (1e-3, 2e-3)]
     assert apart(*small, "total_impulse") == pytest.approx(1.0)
     edges = np.linspace(-1.0, 1.0, 5) / runs[0].impact.length_scale

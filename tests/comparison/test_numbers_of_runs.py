@@ -10,11 +10,12 @@ from histories import history_of, pushed_until
 
 from bent_beam import Impact
 from bent_beam.measure.numbers import FACTOR, Band, Number
+from bent_beam.measure.reduction import peak_moment
 from bent_beam.meshes import UniformMesh
 from comparison.bounced import Bounce
 from comparison.bouncing import case_of, follow_hits, problem, whole_numbers, whole_reading
 from comparison.doubts import energy_residual, loss_warnings, numerical_loss, told_by, wide_bars
-from comparison.predicting import OF_INSTANT, instant_numbers
+from comparison.predicting import OF_INSTANT, instant_numbers, instants_reading
 from comparison.questions import Question
 from comparison.runs import Run, Runs, numbers_of
 from hermite_fe import HermiteFE
@@ -179,6 +180,14 @@ def test_hits_are_followed_until_so_many_are_over_or_the_beam_does_not_come_back
     assert len(follow_hits(flying, Falling(), 2, first=first)) == 1  # type: ignore[arg-type]
     found = follow_hits(falling, resting, 4, first=first)  # type: ignore[arg-type]
     assert [hit.begin for hit in found] == [0.0] and resting.longest < 50.0
+
+
+def test_a_straight_beam_that_its_wall_presses_evenly_has_no_moment_of_round_off() -> None:
+    beam = Impact(
+        curvature=0.0, bending_stiffness=1.0, mass_per_length=1.0, velocity=1.0, length=2.0, wall_stiffness=9.0
+    )
+    run = HermiteFE(mesh=UniformMesh(0.2)).simulate(beam, end_time=0.2, save=20)
+    assert 0.0 < peak_moment(run).moment < 1e-12 and instants_reading((0.1, 0.2), False, run)["peak_moment"] == 0.0
 
 
 def test_few_saved_instants_hold_the_time_that_is_asked_for() -> None:
