@@ -98,9 +98,10 @@ def is_over(history: ImpactHistory) -> bool:
 
 
 def _quiet(history: ImpactHistory) -> float:
-    """s at the end of a run since the last push; 0 without one."""
+    """s at the end of a run since the start of the saved interval of the last push; 0 without one. The run itself, in
+    which :class:`Separation` knows the step of that push, has not counted more."""
     pushed = np.flatnonzero(acting(history.array("total_impulse")))
-    return float(history.time[-1] - history.time[pushed[-1]]) if pushed.size else 0.0  # the run itself knows the step
+    return float(history.time[-1] - history.time[pushed[-1]]) if pushed.size else 0.0
 
 
 def may_return(history: ImpactHistory) -> bool:

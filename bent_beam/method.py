@@ -128,8 +128,8 @@ def simulated(run: Callable[..., ImpactHistory], impact: Impact, **how: Any) -> 
     return history
 
 
-LONGEST, LONGEST_OF_WALL = 8.0, 100.0  # T*, until when a beam is followed that stays on its wall; on a soft one
-ON_WALL = 3.0  # times `time_on_wall`, as long a beam may need on a soft wall: a load that presses nearly doubles it
+LONGEST, LONGEST_OF_WALL = 8.0, 100.0  # T*: a beam still on its wall is given up then; on a soft one then at the latest
+ON_WALL = 3.0  # times `time_on_wall`: given up then on a soft wall. A load that presses nearly doubles the time on it
 SAVED_LATE = 200  # instants a T* after LONGEST, while a soft wall pushes on
 
 

@@ -98,7 +98,7 @@ class Bounce:
         """The numbers in SI units, and the largest stress (:func:`with_stress`)."""
         unit = self.units
         found = {name: n.scaled(unit.get(WHOLE[name].scale, 1.0)) for name, n in self.numbers.items()}
-        # a later last contact has loads work longer: what energies in J are shares of is no surer
+        # shares become J by the energy supplied until the last contact: as loads work on, the bar of its time adds to J
         late = abs(self.outcome.supplied_rate) * (self.numbers["last_contact"].bar or 0.0)
         for name, n in found.items():
             if late and WHOLE[name].scale == "energy" and n.bar is not None:

@@ -120,7 +120,7 @@ def whole_numbers(made: Runs) -> dict[str, Number | Band]:
     reading = made.run.reading
     names = NUMBERS if reading["peak_force"] is None else (*NUMBERS, "peak_force")
     known = {name: {"saved_instants": reading["within"]} for name in TIMES}
-    if made.question.impact.wall_stiffness is not None:  # the last push alone is late by more than half of it
+    if made.question.impact.wall_stiffness is not None:  # a whole interval is for the last push, which fades
         known["peak_moment_time"]["saved_instants"] *= 0.5
     known |= {name: {"saved_instants": change} for name, change in reading["drift"].items()}
     known["peak_force"] = {"sharp": reading["peak_force_sharp"]}

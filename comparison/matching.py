@@ -165,6 +165,7 @@ def answer(question: MatchQuestion, store: RunStore, limit: float | None = None)
     leading, estimate = fine.leading(others), fine.first(others)
     warnings = [w for r in fine.runs for w in (*r.warnings, *r.reading["warnings"])] + lost
     place, push = leading.lambda0, leading.r0
+    # a λ₀ within its bar (front 0) is one point's; near κ/ν = 1, where λ₀ vanishes, its bar is held against 0.1
     wide = (leading.front and place.spread > WIDE * max(place.known, 0.1)) or push.spread > WIDE * push.known
     if wide and question.wall is None:  # before a wall that gives way they are no constants
         warnings.append(f"wide error bar: λ₀ = {leading.lambda0}, r₀ = {leading.r0}")

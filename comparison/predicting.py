@@ -95,8 +95,8 @@ def _crossings(runs: Runs) -> float:
 
 
 def _crossings_of_force(runs: Runs) -> float:
-    """The same of the reaction, N: what companions change of mean forces over parts of that window, beyond what they
-    change of that over all of it."""
+    """The same of the reaction, N, the mean force over that window. Two runs may agree in it by chance, and not over
+    parts of it: the largest change of the impulse over any part counts, beyond that over all of it."""
     if runs.question.until is None:  # to the last separation, where nothing pushes
         return 0.0
     changes = _changes_around(runs)

@@ -6,13 +6,19 @@
   front, with the damping at grid scale that this takes;
 - later, and for the whole impact: of the whole beam, strictly unilateral, with no damping but the beam's own.
 
-Companions: a run of half as many elements and steps. Later also a run with another contact law: no refinement of one
-scheme shows what the scheme does. Without damping late motion converges on a soft wall only, and there a run of twice
-as many elements is added; elsewhere the companions are runs whose elements, steps and contact laws are drawn from a
-seed. Such a beam also keeps the short waves that its ends send back at once. Grid viscosity absorbs them in a run and
-in its coarser companion alike, and their difference does not show it: an early question has a companion more, without
-viscosity, on even elements. The same question gets the same numbers, from runs that are kept. A cause of error that no
-companion shows is a known size (CONTRIBUTING.md says where).
+Companions, by cause of error:
+
+    mesh_and_step      half as many elements and steps
+    finer              twice as many: asked for, or late, without damping, on a soft wall (coarser ones agree by chance)
+    contact_law, …     late: another contact law, as no refinement of one scheme shows what the scheme does
+    waves_absorbed     early, stated η < 3e-5 T*: no grid viscosity, on even elements
+    fit_of_the_loss    of a material with hysteretic loss: more of it
+    drawn_0, …         late, without damping, not on a soft wall, where motion does not converge: in place of all these,
+                       elements, steps and contact laws drawn from a seed
+
+With hardly any damping a beam keeps the short waves that its ends send back at once. Grid viscosity absorbs them in a
+run and in its coarser companion alike: ``waves_absorbed`` shows what that does. The same question gets the same
+numbers, from runs that are kept. An error that no companion shows is a known size (CONTRIBUTING.md says where).
 """
 
 from __future__ import annotations
@@ -34,10 +40,10 @@ EARLY = 0.003  # T*
 COARSER, FINER = 0.5, 2.0
 DRAWN, SEED = 5, 15  # runs of an ensemble at a time, without damping
 WEAK = 3e-5  # η/T*: with less a beam keeps waves that grid viscosity absorbs
-RESOLVES = 0.05  # times 1/√(t/T*): refinement of a whole beam's elements that has ten of them in √(ct)
+RESOLVES = 0.05  # over √(t/T*): how many times finer a whole beam's elements are when ten of them lie in √(ct)
 EARLIEST = 1e-5  # T*: before, those waves carry less than 0.1 ‰ of the impulse
-OF_SHORT, SHORT = 2.0, 0.05  # times as many elements as for the whole impact, in runs up to this time, T*
-FINEST, SOON = 4.0, 0.025  # … and up to so many before this time, T*, to resolve what the first instants left
+OF_SHORT, SHORT = 2.0, 0.05  # times as many elements as for the whole impact, in runs to this time, T*; in longer fewer
+FINEST, SOON = 4.0, 0.025  # … in runs to this time, T*, more, so many at most, to resolve what the first instants left
 INSTANTS, OF_UNIT = 200, 2000  # saved: up to the time asked, evenly in √t; of a whole impact, a T*
 ERROR_BARS = {"drift": (), "quick": (COARSER,), "thorough": (COARSER, FINER)}
 """Resolutions of the companion runs that error bars come from, by name."""
@@ -46,9 +52,9 @@ ERROR_BARS = {"drift": (), "quick": (COARSER,), "thorough": (COARSER, FINER)}
 @dataclass(frozen=True)
 class Question:
     """One beam by one method. until : s; ``None``: the whole impact, to its last separation. save : saved instants,
-    see :data:`INSTANTS`. error_bars : a key of :data:`ERROR_BARS`. damping_stated : otherwise the beam has some, enough
-    to absorb the short waves that one of no damping keeps. band : (runs, seed) of an ensemble in place of run and
-    companions.
+    see :data:`INSTANTS`. error_bars : a key of :data:`ERROR_BARS`. damping_stated : whether ``impact`` has the damping
+    of the beam. A beam of which none is stated is taken to have enough to absorb short waves: no companion is run for
+    them. band : (runs, seed) of an ensemble in place of run and companions.
 
     A run to a time t goes on to 1.1 t: means over a tenth of the time are read around t.
     """

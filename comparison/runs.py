@@ -154,8 +154,9 @@ def numbers_of(
 ) -> dict[str, Number]:
     """Numbers by name from the readings. known : of a name, cause → size of what no companion shows.
 
-    Late and where the beam does not converge a number is the mean of all runs, its bar two standard deviations.
-    Otherwise a bar is :data:`LEAST` of its number at least, or :data:`LEAST_LIGHT`.
+    Where a late motion does not converge (no damping, no soft wall) a number is the mean of all runs, its bar two
+    standard deviations. Elsewhere a bar is at least :data:`LEAST` of its number; :data:`LEAST_LIGHT` with hardly any
+    damping, once waves have run along the beam.
     """
     found, extra, least = dict[str, Number](), known or {}, LEAST_LIGHT if _is_light(runs.question) else LEAST
     scattered = runs.question.late and not converges(runs.question.impact)

@@ -74,6 +74,7 @@ class Simulated:
             "half_contact_length": self._beside("half_contact_length", row.half_contact_length if row else None),
             "total_impulse": self._beside("impulse", row.impulse if row else None),
             "restitution": self._beside("restitution", None),
+            # constants of the theory: no number of the run stands beside them at a time at which it does not hold
             "lambda0": self._beside("lambda0" if row else "", infinite.lambda0 if infinite else None),
             "r0": self._beside("r0" if row else "", infinite.r0 if infinite else None),
             "lift": None if impact.off_centre else float(lift(history)[-1]),

@@ -1,7 +1,10 @@
-"""The numbers of a whole impact: what each is measured in and called. A further one is a line of the table, and a field
-of :class:`bent_beam.measure.whole_impact.WholeImpact`; what no companion run shows of its error is named in
-:mod:`comparison.bouncing`. With a heading, or where its name begins with ``peak_moment``, a sweep has it. And what is
-said of a hit, in a table of hits.
+"""The numbers of a whole impact: what each is measured in and called; and what is said of a hit, in a table of hits.
+
+A further number is a line of the table and a field of :class:`bent_beam.measure.whole_impact.WholeImpact`, which reads
+it off the record (or :mod:`bent_beam.measure.reduction`). The record must have what it needs: ``VARIABLES`` in
+bent_beam/files.py, written by both paths (hermite_fe/simulate.py, exudyn_models/recording.py). What no companion run
+shows of its error is named in :mod:`comparison.bouncing`. With a heading, or where its name begins with
+``peak_moment``, a sweep has it.
 """
 
 from __future__ import annotations

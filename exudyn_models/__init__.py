@@ -6,6 +6,11 @@ One call, every part a small frozen object that may be swapped or left to be cho
     import exudyn_models
 
     history = exudyn_models.simulate(Impact.dimensionless(0.5))
+
+To read it, follow a run: :mod:`.method` (parts, given or chosen), :mod:`.resolution` and :mod:`.whole_beam` (mesh and
+steps), :mod:`.geometry` (model units, how the beam is laid), :mod:`.assembly` (the Exudyn system of :mod:`.elements`
+and :mod:`.contacts`), :mod:`.stepping` in :mod:`.segments`, :mod:`.settling` (which contacts are closed),
+:mod:`.recording`. :mod:`.building` lays the same system for Exudyn alone.
 """
 
 from exudyn_models.building import Built, build

@@ -145,7 +145,8 @@ def _axial_stiffness(asked: float | None, true: bool, scaling: Scaling) -> float
     if true:
         return 12.0 * (scaling.length / scaling.impact.section_height) ** 2
     if not scaling.axial_force:
-        return min(1.0, scaling.amplitude / STEEPEST)  # round-off of strains stays below what forces are told apart by
+        # in proportion to the amplitude, like the tolerance of forces: this stays above the round-off of strains
+        return min(1.0, scaling.amplitude / STEEPEST)
     later = lasts_until_waves_return(scaling.impact, scaling.end_time)
     return max(TAUT, abs(scaling.axial_force) / (STRETCH_LATER if later else STRETCH))
 

@@ -39,8 +39,8 @@ Indices = NDArray[np.int64]
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(4)  # of an element, −1 … 1
 STEEPEST = 1e-4  # slope in the linear limit: at 2e-3 the energy budget of a whole impact is 8e-6 off
 MODE_SLOPE = 6.0  # over V₀/(L/2): that of the lowest mode of any ends is half of it
-MOVED = 2.0  # fronts' bounds from the centre: beyond, the beam keeps the shape that it came with
-FARTHEST = 200.0  # bound of a front
+MOVED = 2.0  # times `Scaling.front`, from the centre: beyond, the beam keeps the shape that it came with
+FARTHEST = 200.0  # Λ, the largest `Scaling.front`, which has no limit as κ → 0
 
 
 def supports_or_plate(impact: Impact) -> bool:
@@ -54,12 +54,12 @@ class Scaling:
     length : Λ = (EI/μ)^{1/4} √T, m; true_amplitude : V₀T/Λ, at which the model has the shape of the real beam.
     deflection (m), velocity (m/s), slope, impulse (N s), energy (J), stiffness (N/m²) and damping (N s/m²) per length :
         factors.
-    kappa : of the beam against the wall; beam_kappa : of the beam itself.
-    front : √(2ν/κ), for choosing a resolution, never to make an answer: without a wall, y₀ = V₀t − Kx²/2 would be
-        inside it up to x = √(2V₀t/K), that is λ₀ < √(2ν/κ).
+    kappa : κ/ν of the bow against the wall; beam_kappa : of the bow itself, whatever the wall.
+    front : √(2ν/κ), Λ, the front's bound, for choosing a resolution, never to make an answer. The zone at the end time
+        is shorter, λ₀ < √(2ν/κ): up to there y₀ = V₀t − Kx²/2, without a wall, is inside it.
     motion : y₀ − y_w over amplitude, x from first_touch (Λ); loads : the terms of it that load the ends.
-    pushed : over amplitude, the most by which forces at points change slopes and velocities until the end, those of an
-        endless beam and of a rigid one.
+    pushed : over amplitude, a bound of what forces at points change of slopes and velocities until the end: the sum of
+        what they change of an endless beam and of a rigid one.
     shear_length : l_s/Λ, 0 without shear; rotary_inertia : J/(μΛ²); material_damping : η/T.
     axial_force : N Λ²/EI; load : uniform load per unit length over amplitude, under which y₀ is the motion without
         contact.

@@ -34,7 +34,8 @@ __all__ = [
 
 @dataclass(frozen=True)
 class Averages:
-    """How a scheme turns forces at the ends of a step into its impulse (Chung & Hulbert 1993; Newmark: αm = αf = 0):
+    """How a scheme turns forces at the ends of a step into its impulse (Chung & Hulbert 1993; Newmark: αm = αf = 0, in
+    Exudyn both ½, which is the same, φ = f, as runs start with a = v̇):
 
     Δp = h[(1−γ) φ₀ + γ φ₁],   (1−αm) φ₁ + αm φ₀ = (1−αf) f₁ + αf f₀.
     """

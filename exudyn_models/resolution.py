@@ -2,9 +2,9 @@
 
 In the first spread of the zone elements grow with the distance from the middle, steps with time. Before a thin front
 all elements that it may reach are equal. A run that lasts until waves are back from the ends needs elements of one
-length, and steps that resolve the contact, h = ½Δx²√(μ/EI): a node that closes within a step much longer than the
-penalty's own time gets half of its reaction once more in the next step, and the beam leaves with more energy than it
-had.
+length, and steps that resolve the contact, h = ½Δx²√(μ/EI). A step's impulse is about half of the force at its start
+and half of that at its end: in a step much longer than the penalty's own time the latter stops a node that lands, then
+counts again in the next step, and the beam leaves with more energy than it had.
 """
 
 from __future__ import annotations
@@ -21,14 +21,14 @@ from bent_beam.meshes import Mesh, NodesMesh, ScaleFreeMesh
 from exudyn_models.geometry import Array, Indices, Scaling, supports_or_plate
 from exudyn_models.integrators import Implicit
 
-GROWTH = 0.01  # neighbours of the chosen mesh: 5 elements over the front's bending length at κ/ν = 0.05, 20 at 0.2
-THIN = 0.12  # κ/ν below which hits of nodes at the front of that mesh lift the zone; 0.07 without: λ₁ 23 % off
-WAVES, GROWTH_OF_WAVES = 2.0, 0.02  # beyond so many times the front's bound there are waves only, and these neighbours
-OF_ZONE, OF_BENDING = 300.0, 30.0  # the smallest element over the front's bound and over the bending ahead of it …
-OF_SHORT_ZONE, SHORTEST = 60.0, 0.01  # … and over the bound times 1 − κ/ν or, nearer to κ/ν = 1, times this
+GROWTH = 0.01  # of elements, one to the next: 5 lie over the front's bending length at κ/ν = 0.05, 20 at 0.2
+THIN = 0.12  # κ/ν below which node hits at the front of that mesh lift the zone: at 0.07 λ₁ would be 23 % off by it
+WAVES, GROWTH_OF_WAVES = 2.0, 0.02  # times the front's bound: beyond are waves alone, and elements grow by so much
+OF_ZONE, OF_BENDING = 300.0, 30.0  # smallest elements: over the front's bound, over the bending length ahead of it, …
+OF_SHORT_ZONE, SHORTEST = 60.0, 0.01  # … over a short zone: the bound times 1 − κ/ν, but times this at least
 OF_SHORT_ZONE_EXPLICIT, SHORTEST_EXPLICIT = 3.0, 0.07  # likewise; λ₀ is 12 % off at κ/ν = 0.93 with 1.8 elements
-OF_THIN_FRONT = 3.0  # equal elements over the bending length of a thin front at the end of the run, …
-LEAST_OF_ZONE, MOST_OF_ZONE = 300.0, 800.0  # … but so many at least and at most up to the front's bound
+OF_THIN_FRONT = 3.0  # equal elements: over the bending length of a thin front at the end of the run, …
+LEAST_OF_ZONE, MOST_OF_ZONE = 300.0, 800.0  # … but up to the front's bound so many at least, and at most
 BEYOND_THIN_FRONT = 1.1  # times the front's bound, where these end
 PASSED = 2.0  # elements that a thin front passes in a step
 REACH, REACH_OF_FRONT = 12.0, 8.0  # half length to model, see far_field; tests/comparison/test_constants.py

@@ -102,7 +102,7 @@ class Settling:
     def _returns(self, closed: Flags, doubtful: Flags, force: float) -> bool:
         """Whether this is the least contradictory of states that come back again and again; else it is remembered."""
         if self._doubtful is None or (doubtful & ~self._doubtful).any():
-            # nodes that hover at the wall without force make no difference: a state is that of the others
+            # a state is told by the connectors that were corrected alone: others hover at the wall without force
             self._doubtful = doubtful if self._doubtful is None else doubtful | self._doubtful
             self._tried, self._cycling = {}, False
         state = closed[self._doubtful].tobytes()

@@ -4,11 +4,11 @@ Nothing is held, nothing damped but by the beam itself, and every part of the be
 
     a uniform mesh,   constant steps at the wall,   the trapezoidal rule,   no viscosity at grid scale.
 
-- A beam that touches in a point takes h = ½Δx²√(μ/EI) and the penalty as it is; so does one with a mesh, steps or
-  contact of somebody's own, and one so flat that its front asks for a stiffer penalty.
-- Where a zone spreads, e is off by what elements lose that land, about in proportion to Δx. So there elements are
-  shorter, steps 2√2 times as long for them, and the penalty an eighth as stiff, with the same damping ratio: kh² and dh
-  stay what they are.
+- A beam that touches in a point takes h = ½Δx²√(μ/EI) and the penalty as it is. So does one with a mesh, an integrator
+  or a contact that is given, and one so flat (κ/ν < 1/150) that its penalty becomes stiffer with its front.
+- Where a zone spreads, elements lose energy as they land, and e is off by it, about in proportion to Δx. So there
+  elements are shorter, and to make up for it steps are 2√2 times ½Δx²√(μ/EI), and the penalty is an eighth as stiff,
+  with the same damping ratio: kh² and dh stay what they are.
 - Off the wall there are only waves of ω ~ 1/√(ηT*): the steps of a damped beam grow there with its gap.
 - A rigid plate, whose hits are plastic, takes steps four times as long.
 - Elements that are shorter than l_s follow shear waves, and so do steps: h = ½Δx/c_s, or twice as long.

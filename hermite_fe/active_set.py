@@ -4,11 +4,11 @@
 
 The closed constraints, G x = c, are guessed; the system is solved (:mod:`hermite_fe.constraints`); the constraints
 whose sign is wrong are exchanged, until none is (a primal–dual active set; Hintermüller, Ito, Kunisch 2003, SIAM J.
-Optim. 13, 865). All wrong ones are exchanged while their number falls fast. Then, of each run of neighbours that are
-wrong in the same sense, only the worst is exchanged, and both of a run of two: a beam is stiff over a few nodes, so
-that this mends the others. When the number has not fallen for ``PATIENCE`` rounds, only the wrong one of highest index
-is exchanged (Murty's rule; Júdice & Pires 1994, Comput. Oper. Res. 21, 587). After ``MOST_ROUNDS`` :func:`exchange_one`
-starts anew.
+Optim. 13, 865). All wrong ones are exchanged in rounds in which their number has fallen fast. In others, of neighbours
+that are all wrongly open or all wrongly closed only the worst is exchanged, or both if they are two: a beam is stiff
+over a few nodes, so that this mends the rest. When the number has not fallen for ``PATIENCE`` rounds, only the wrong
+one of highest index is exchanged (Murty's rule; Júdice & Pires 1994, Comput. Oper. Res. 21, 587). After ``MOST_ROUNDS``
+:func:`exchange_one` starts anew.
 
 Signs are judged against round-off: p against the terms of its equation, a gap against the largest deflection and slope.
 """
@@ -170,8 +170,9 @@ def exchange_one(solver: Solver, rows: Rows, p: Array, closing: int, latest: int
 
     The reactions p ≥ 0 minimise ½pᵀGS⁻¹Gᵀp + pᵀ(GS⁻¹b − c). The constraint that is furthest in the wall is closed;
     where a reaction then turns negative the step goes only as far as to the first that vanishes, and that one opens
-    (Lawson & Hanson 1974, Solving Least Squares Problems, ch. 23). A set of closed constraints repeats through
-    round-off alone: where the one that was closed last opens at once, signs are judged ten times more leniently.
+    (Lawson & Hanson 1974, Solving Least Squares Problems, ch. 23). As the energy falls, no set of closed constraints
+    comes back, unless by round-off. Then the one that was closed last opens at once: signs are from then on judged ten
+    times more leniently.
     """
     reached, opening, share = solver.reached, -1, 1.0
     for j in range(p.size):

@@ -21,8 +21,8 @@ from hermite_fe.compiled import Array, Flags, Places, compiled, compiled_within
 from hermite_fe.system import System
 
 SMALLEST_REACTION, PRODUCT = range(2)
-"""Indices in ``worst``: the smallest impulse above what its constraint may pull, and the largest |p·slack|, J:
-of an impulse and a velocity, or of a force and a gap."""
+"""Indices in ``worst``: the smallest of an impulse less its bound, N s, negative where a constraint pulls harder than
+it may; the largest |p·slack|, J, impulse times velocity or force times gap."""
 WORST = ("smallest_reaction", "complementarity_product")
 
 

@@ -108,10 +108,10 @@ class HermiteFE(Composition):
         shortest = float(np.diff(mesh.nodes(impact.half_length)).min())
         contact = self.contact or NodeContact()
         chosen = self.integrator or whole_beam.scheme(impact, contact, shortest, end_time)
-        integrator = chosen.with_defaults(impact, end_time)  # before it is refined: what is open cannot be
+        integrator = chosen.with_defaults(impact, end_time)  # first: refined() leaves open what is open
         step = whole_beam.step(impact, shortest)
         if integrator.time_step is None and impact.wall_stiffness is None:
-            # the step is that of refined elements; a stated growth shrinks as it does
+            # `step` is that of refined elements, without shear refine² times shorter: stated growth and penalty follow
             integrator = integrator.refined(self.refine**2).with_steps(step, 0.0)
         else:
             integrator = integrator.with_steps(step, 0.0).refined(self.refine)

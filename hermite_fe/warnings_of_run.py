@@ -19,7 +19,7 @@ MOST_ROUNDS = 100  # of the active set in one step; sound runs take ten or so
 ABSORBED = "; {} damps it, of which HermiteFE().for_whole_beam(impact) has none"
 LARGEST_LIFT = 1e-2  # of V₀t; r₀ may be too large by as much (docs/numerics.md)
 EMITTED = 10.0 ** np.arange(-9.0, 1.0, 0.02)  # T*: times at which waves are looked at, the same for all runs
-DAMPED = 4.0  # elements within √(cη), or within l_s, from which on all schemes lift a zone alike (within a fifth)
+DAMPED = 4.0  # elements within √(cη), or l_s: from then on a lift is the beam's own, in all schemes within a fifth
 
 
 def rounds_warnings(most: int) -> list[str]:

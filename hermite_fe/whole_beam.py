@@ -37,11 +37,11 @@ from hermite_fe.resolution import (
 FEWEST_IN_FRONT = 4.0  # with fewer even elements the early impulse of one point is off by more than 1 %
 ELEMENTS = 200  # of a half beam that is followed until it has left
 SHEARED_ELEMENTS, SHEARED_STEP = 100, 0.0125  # likewise with shear; step, T*, over the element's share of the half beam
-HARD = 2.0  # times as many elements and steps: thin fronts, small damping, and first instants in which damping is felt
-THICK, DAMPED = 0.35, 3e-4  # κ/ν and η/T* from which on neither is
+HARD = 2.0  # times as many elements: with shear unless THICK and DAMPED, and in first instants with damping_is_felt
+THICK, DAMPED = 0.35, 3e-4  # κ/ν and η/T*: with both as large a beam with shear needs no more elements
 ONE_POINT = 2.0  # κ/ν from which on a whole impact with shear is that of one point
-LARGEST_ELASTIC = 0.25  # of ℓ_k: element before a wall that gives way
-PRESSED = 0.5  # of the beam's momentum, that loads give it in a T*: from then on they press
+LARGEST_ELASTIC = 0.25  # of ℓ_k: the longest element before a wall that gives way
+PRESSED = 0.5  # of the beam's momentum: loads that give it more in a T* count as pressing
 
 
 def begins(impact: Impact, end_time: float) -> bool:

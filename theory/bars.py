@@ -1,4 +1,5 @@
-r"""An elastic bar against a wall: one wave equation, one contact point, contact that lasts. Exact to round-off.
+r"""An elastic bar (no error bar) hits a wall with its end: one wave equation, one contact point, contact that lasts.
+Exact to round-off; rungs of `theory.ladder`, which says who uses them.
 
     u_tt = c² u_xx,   0 ≤ x ≤ L,   u(0,t) ≥ 0 ⊥ r = −EA u_x(0,t) ≥ 0
 

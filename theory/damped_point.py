@@ -13,8 +13,9 @@ impulse by a₀ (m = 2) are
 
 The elastic moment ahead of it is 0.24 of that at the contact at first, 0.56 in the end, less 1.4 η/t of itself.
 
-A zone (κ/ν < 1) starts as one point, too. Its elastic moment is erf √T of that of a point, and it spreads once that is
-κ/ν, at T_p = erf⁻¹(κ/ν)². From then on damping has no closed form.
+With damping, without shear, a zone (κ/ν < 1) starts as one point, too (with shear as a zone: `theory.shear`). Its
+elastic moment is erf √T of that of a point, and it spreads once that is κ/ν, at T_p = erf⁻¹(κ/ν)². From then on damping
+has no closed form.
 """
 
 from __future__ import annotations

@@ -3,7 +3,7 @@ r"""Exact solutions of simpler impacts, the rungs below the beam, one thing to g
 A ball (restitution, infinitely many impacts), a bar (a wave, contact that lasts: `theory.bars`), a string (contact
 everywhere at once), and the stopped beam (bending waves, one fixed point: `theory.stopped_beam`). The bent beam's
 moving front is `theory.similarity`. All are exact to round-off unless they say otherwise; times t ≥ 0 and
-places broadcast.
+places broadcast. The open benchmark holds codes against them, the gallery draws the ball; docs/theory.md, section 10.
 
 **Ball** dropped on a floor, with Newton's restitution and infinitely many impacts in a finite time:
 

@@ -87,7 +87,7 @@ class Prediction:
         valid_from, valid_until: s; half length and impulse are within 2 % between them (`theory.validity`), but for the
             half length of one point that shears under a load or with damping, which it leaves out.
         force_until: s; until then the force, a mean over a tenth of the time before and after, is within 2 %, too.
-            `times` beyond keep it; ``bentbeam predict`` leaves it out.
+            Later `times` still have a force, which may be further off; ``bentbeam predict`` leaves it out.
         valid_after: what spoils them before valid_from, one of the names in `theory.validity`; None: nothing does.
         limited_by: what ends it, one of these names.
         yields: whether the stress at leading order without damping is beyond the yield stress; None if either is not

@@ -12,7 +12,9 @@ with damping η of shear and bending alike s becomes s/√D in the roots, and R�
 starts with R = 2V₀√(Sμ): Euler and Bernoulli's force is infinite there, Timoshenko's is not (Szalai 2014, J. Vib.
 Acoust. 136, 041002), and is Euler and Bernoulli's in the end, J = 4√(2t/π)[1 − (3 − g)/(8t)].
 
-**Every bent beam starts with a zone**, whose rim runs ahead of shear waves until t_c = 1/(2κ), as of a string:
+**With shear every bent beam starts with a zone**, with damping a very short one (without shear, but with damping, it
+starts as one point: `theory.damped_point`). Without damping its rim runs ahead of shear waves until t_c = 1/(2κ), as of
+a string:
 
     X = √(2t/κ),     J = 2X,     R = √(2/(κt)).
 

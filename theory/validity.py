@@ -1,12 +1,15 @@
 r"""Until when the theory of the first instants holds for a real beam. Every limit is a formula, derived in
-docs/theory.md, section 9; ℓ is the half length, d the distance of the contact's end from the beam's.
+docs/theory.md, section 9; ℓ is the half length, d the distance of the contact's end from the beam's. The theory's
+numbers carry such a range, in which they are right to 2 %, in place of an error bar.
 
-- **ends**: waves that come back change the impulse by √2 ct/d² at most; the limit is d = `DISTANCE` √(ct). Those of a
-  flat contact's front are back when it has covered a third of ℓ (`FLAT`). They swing the momentary force by 2√2 of
-  itself from the first instant on, damped by e^{−ηℓ⁴/2c²t³}, and its mean over a tenth of the time before and after by
-  √2 ct/d² · 20. The mean holds until it swings by `SWING` (`force_until`). A free motion with q₀ swings the force by
-  √2 |q₀|cℓ²/(r₀V₀) from the ends, an axial force along x by 4√2 NKt/(μV₀r₀), and the impulse by 2ct/ℓ² of as much. If
-  that is more than 2 %, the limit is 2 % of the impulse or twice the distance.
+- **ends**: waves that the contact sends and the ends send back change the impulse by √2 ct/d² at most; the limit is
+  d = `DISTANCE` √(ct), of a flat contact the time at which it has covered a third of ℓ (`FLAT`).
+  Short ones swing the momentary force by 2√2 of itself from the first instant on, damped by e^{−ηℓ⁴/2c²t³}. So the
+  force that is told is a mean over a tenth of the time before and after, which they swing by √2 ct/d² · 20. It holds
+  until both swings are beyond `SWING` (`force_until`).
+  Loads make the ends send waves of their own: with q₀ they swing the force by √2 |q₀|cℓ²/(r₀V₀), with an axial force
+  along x by 4√2 NKt/(μV₀r₀), and the impulse by 2ct/ℓ² of as much. Where the force would swing by more than 2 %, the
+  limit is d = 2 `DISTANCE` √(ct), or earlier, when the impulse swings by 2 %.
 - **loads**: the second order (`theory.second_order`) over what first order predicts, and the first order over the
   leading one, which has to be small. One point spreads when the loads have taken the curvature κ − ν of its gap away.
 - **damping**: one point has a closed form (`theory.damped_point`), under an axial force up to its share in r₁. A zone

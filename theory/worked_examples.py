@@ -5,7 +5,8 @@ r"""The two worked examples of perturbation theory: perturbed roots and the Duff
     regular expansion   y = cos t + ε[(cos 3t − cos t)/32 − (3/8) t sin t] + O(ε²)    (2.2.8)
     multiple scales     y = cos ωt + (ε/32)(cos 3ωt − cos ωt), ω = 1 + 3ε/8           (2.2.13), (2.2.14)
 
-The term t sin t grows without bound, the oscillator does not: the reason for two time scales (Fig. 2.2).
+The term t sin t grows without bound, the oscillator does not: the reason for two time scales (Fig. 2.2). No impact:
+they stand in the gallery and in docs/theory.md, section 12.
 """
 
 from __future__ import annotations

@@ -40,7 +40,8 @@ class Number:
 
     @property
     def known(self) -> float:
-        """The value. Raises ``ValueError`` where there is none."""
+        """The value, for those who need one (``known`` of :func:`number_of` is another thing: sizes of errors). Raises
+        ``ValueError`` where there is none."""
         if self.value is None:
             raise ValueError("there is no value")
         return self.value
@@ -109,7 +110,7 @@ def number_of(
 
     others : cause → the value of a run that differs from this one by that cause alone: half of the elements and steps,
         another contact law. What both share is no cause that they can see.
-    known : cause → the size of an error that no companion shows: a saved instant, an element, a fit, a viscosity.
+    known : cause → size of an error that no companion shows, as of an element or a fit; not :attr:`Number.known`.
     A bar is ``least`` of the value, or more. Without a value there is no number; without companions, and where one
     of them has no value, there is no bar.
 

@@ -54,10 +54,10 @@ class WholeImpact:
     peak_force : on the zone of a wall that gives way, over μℓV₀/T*, with its time and its mean |x|/ℓ; ``None`` of a
         rigid one; peak_force_sharp : by how much it stands above the mean of the steps beside its own. push : the
         largest impulse within :data:`WINDOW` T*, over μℓV₀; push_time : when the wall begins to push within that;
-        push_rise : its part that lies between saved instants, and is no surer; of a rigid wall, whose pushes are short,
-        half of what may lie there.
-    supplied : the initial energy and the work of the loads until then, J; supplied_rate : by how much of it that grows
-        in T* then. element : length over ℓ of the element at the largest moment: its place is no surer.
+        push_rise : its part that was estimated between saved instants, which is also its uncertainty; of a rigid wall,
+        whose pushes are short, half of what may lie there.
+    supplied : the initial energy and the work of the loads until the last contact, J; supplied_rate : by how much of it
+        that grows in T* then. element : length over ℓ of the element at the largest moment; its place lies in it.
     energy_defect : what the independently computed terms of the budget leave, of the initial energy; energy_gain : the
         largest rise of the energy, what springs of the wall hold included, above what loads have worked, likewise.
     left : whether the beam is off the wall for good; otherwise no number is final. again : whether the run has later

@@ -1,16 +1,18 @@
 """What every contact is given and what it reports.
 
-The wall is y = 0, the beam lies in y ≤ 0, the gap is g = −y. A contact puts its connectors into the Exudyn system
-once and is then asked, between segments of time steps, for the force at each contact point; it may switch connectors
-there.
+The wall is y = 0, the beam lies in y ≤ 0, the gap is g = −y. A contact puts its connectors into the Exudyn system once.
+Between segments of time steps it is asked for the force at each contact point, and may switch connectors.
 
-Which captured nodes are held, and until when (:class:`HeldStrip`): what the node impacts of the first instants, which
-no mesh resolves, leave behind would lift the zone for a long time. So all captured nodes are held for a first share
-``START`` of the run, but not in runs that last until waves are back from the ends, nor where load, damping or shear
-draws the beam off the wall or it touches in a point: a held start makes the largest moment 5 % too large at κ/ν = 0.32
-with ζ = 0.2 %, 15 % at 1.2. Behind the front the exact reaction vanishes; a one-sided law turns the numerical noise
-there into pushes that lift the beam. A ``hold`` of so many elements keeps each captured node until the front is that
-much further. It too ends when waves are back from the ends, which may lift what they will.
+A node is *captured* once its contact has closed. A captured node may be *held*, and is then pulled, too, by the wall
+(:class:`HeldStrip`):
+
+- at the start. No mesh resolves the node impacts of the first instants, which would lift the zone for a long time. So
+  all captured nodes are held for the first share ``START`` of the run. Not in runs that last until waves are back from
+  the ends, nor where load, damping or shear lifts the zone, or the beam touches in a point: there a held start makes
+  the largest moment 5 % too large at κ/ν = 0.32 with ζ = 0.2 %, 15 % at 1.2;
+- behind the front. The exact reaction vanishes there, and a one-sided law turns noise into pushes that lift the beam. A
+  ``hold`` of so many elements keeps each captured node until the front is that many elements further on, or waves may
+  be back from the ends, which may lift what they will.
 """
 
 from __future__ import annotations
@@ -30,7 +32,7 @@ from exudyn_models.geometry import Array, Flags, Geometry, Indices, LinearLimit
 from exudyn_models.integrators import GeneralizedAlpha, Integrator
 from exudyn_models.solvers import USUAL, NewtonSolver
 
-TINY = 1e-30  # a gap that is a state and no length
+TINY = 1e-30  # written over a gap, tells Exudyn the state by its sign: −TINY closed, TINY open
 START = 0.01  # of the end time
 Hold = Annotated[
     int, Quantity("", "elements behind the front whose captured nodes are held, until waves may be back", least=0)
@@ -45,7 +47,7 @@ class Wall:
     lengths : of the beam's elements before the wall, 0 of others, (elements,); all are 0 before a stop;
     half : only x ≥ 0 is modelled;
     waves_return : until when (in end times) no wave is back from the ends, and the zone spreads by itself;
-    lifts : load, damping or shear lifts the zone from the first, or the beam touches in a point: no start is held;
+    lifts : whether no start may be held: load, damping or shear lifts the zone, or the beam touches in a point;
     plastic : share, 0 to 1, of the damping that keeps nodes from rebounding at a thin front, of a zone that spreads for
         the first time; 0 elsewhere.
     explicit : the integrator takes explicit steps.
@@ -112,7 +114,7 @@ class ContactRun(ABC):
 
     iterated = True  # Exudyn finds the contact state by repeating steps
     states = 1  # data coordinates of a connector, the first a gap: the connector is closed where it is not positive
-    imposes = False  # states are those of ``closed_by``, not of Exudyn's gaps
+    imposes = False  # whether ``closed_by`` says which connectors are closed, in the place of the signs of gaps
     along: Array | None = None  # forces on the beam along x with the last ``forces``, (contacts,), where there are any
     assumed: Array | None = None  # the states that the last step was solved with, where Exudyn finds them
     wall_springs: Array | None = None  # stiffness at the contact points of a wall that gives way, (contacts,)

@@ -3,18 +3,20 @@
     R_i = b_i max(0, k y_i + d ẏ_i),   b_i the length of beam that node i stands for
     k = C μ/τ²,   d = D μ/τ,   τ = √(μ/EI) Δx² √(1 + Φ), Φ = 0 without shear: k = C EI/Δx⁴, d = D √(EIμ)/Δx²
 
-It is the complementarity 0 ≤ R ⊥ −(y + (d/k) ẏ − R/(bk)) ≥ 0 of the gap a time d/k ahead, 0.3 Δx² for C = 10 and D = 3.
-The states of a step are those of a linear complementarity problem with a P-matrix, hence unique. Exudyn's own law,
-dashpot on while y > 0, pulls a beam that leaves; :mod:`exudyn_models.settling` writes these states over its.
+So a node is pushed a little before it touches: as soon as the gap that it would have a time d/k later is closed,
+0 ≤ R ⊥ −(y + (d/k) ẏ − R/(bk)) ≥ 0. With C = 10 and D = 3, d/k = 0.3 τ. The states of a step are those of a linear
+complementarity problem with a P-matrix, hence unique. Exudyn's own law, spring and dashpot on while y > 0, pulls a beam
+that leaves; :mod:`exudyn_models.settling` writes these states over its.
 
 Other C and D (measured: docs/exudyn.md):
 
-- where the front passes an element faster than it bends. It passes Δx at x in t = 2xΔx/λ² √(μ/EI), and C = (λ²Δx/x)²
-  makes √(k/μ) t = 2, with the damping ratio of 10 and 3;
+- where the front passes an element faster than it bends. With λ = √(2ν/κ), the front's bound, it passes Δx at x in
+  t = 2xΔx/λ² √(μ/EI), and C = (λ²Δx/x)² makes √(k/μ) t = 2, with the damping ratio of 10 and 3;
 - with shear d Δx = 2√(κ_sGA μ), D = 4√3, takes up shear waves without reflection. Not where η is several τ (κ/ν = 0.1,
   η/T* = 3e-3: e = 0.13 for 0.23);
-- behind a thin front D = 40 makes hits plastic. What is left adds to r₀ like 1/D². The coarser run of an error bar has
-  a smaller D, so that their difference shows it. Not with a ``hold``: its springs pull nodes stopped ahead of the wall.
+- behind a thin front D = 40 makes hits plastic. What is left adds to r₀ like 1/D². The coarser run of an error bar
+  shows it: D is 40 times ``plastic``, the factor of refinement, 1 at most. Not with a ``hold``: its springs pull nodes
+  stopped ahead of the wall.
 
 The springs and dashpots of a wall that gives way, at the nodes, are the wall's own and do not change with the mesh:
 

@@ -1,12 +1,12 @@
 """Rigid contact: constraints switched with the contact state (Exudyn's ``CoordinateConstraint``), no penalty.
 
-    ẏ_i = −c y_i/h while captured,   R_i = −λ_i ≥ 0,   0 ≤ R_i ⊥ −y_i ≥ 0
+    ẏ_i = −c y_i/h while captured,   R_i = λ_i ≥ 0,   0 ≤ R_i ⊥ −y_i ≥ 0
 
-Every node that may touch carries a constraint on its velocity (index 2), inactive until, between two steps, the node
-is found at the wall; its velocity then vanishes within one step, the impact of restitution e = 0. It is released when
-it pulls, but not before the front is ``hold`` elements further on (:mod:`exudyn_models.contacts.base`). In each step it
-is led back by the share c of the depth where it was caught (Baumgarte 1972, Comput. Methods Appl. Mech. Eng. 1, 1).
-Why, and why only Newmark with γ > ½ is accepted: docs/exudyn.md.
+λ_i is Exudyn's multiplier: a force −λ_i along y, so off the wall. Every node that may touch carries a constraint on its
+velocity (index 2), inactive until, between two steps, the node is found at the wall; its velocity then vanishes within
+one step, the impact of restitution e = 0. It is released when it pulls, but not before the front is ``hold`` elements
+further on (:mod:`exudyn_models.contacts.base`). In each step it is led back by the share c of its depth (Baumgarte
+1972, Comput. Methods Appl. Mech. Eng. 1, 1). Why, and why only Newmark with γ > ½ is accepted: docs/exudyn.md.
 """
 
 from __future__ import annotations

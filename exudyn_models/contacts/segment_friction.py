@@ -27,7 +27,7 @@ from exudyn_models.integrators import Integrator
 from exudyn_models.solvers import USUAL, NewtonSolver
 
 TRUE_SHARE = 0.25  # of the curvature, true geometry
-OPEN = [0.1, -2.0, 0.0]  # states of a segment, neither sticking nor slipping
+OPEN = [0.1, -2.0, 0.0]  # an open segment: gap, code (Exudyn's: 0 sticks, ±1 slips, −2 neither), where it sticks
 
 
 class _Run(ContactRun):
@@ -35,7 +35,7 @@ class _Run(ContactRun):
     centre of the circle, and hands the force there to its two ends by the lever rule. Exudyn reports no force of this
     connector; what is computed here is its own law from the same state."""
 
-    states = 3  # gap; stick or slip; where it sticks
+    states = 3  # as in OPEN; what sticks is held by a force in proportion to its speed
 
     def __init__(
         self, beam: Beam, elements: Indices, stiffness: Array, damping: Array, friction: float, sliding: Array

@@ -1,9 +1,9 @@
 """Euler–Bernoulli cable of the absolute nodal coordinate formulation (Exudyn's ``ObjectANCFCable2D``).
 
-    m = EI(κ − κ₀) + η κ̇,   n = EA(|r′| − 1),   κ = (r′ × r″)/|r′|²,   r cubic between nodes with coordinates (r, r′)
+    m = EI(κ − κ₀ + η κ̇),   n = EA(|r′| − 1),   κ = (r′ × r″)/|r′|²,   r cubic between nodes with coordinates (r, r′)
 
-For small deflections this is the Hermite element of the beam equation. The viscosity η = c·√(EIμ)·Δx² damps only what
-the mesh cannot resolve: waves of wave number k by the ratio c(kΔx)²/2.
+For small deflections this is the Hermite element of the beam equation. η, s, is the material's plus that of the grid,
+c·√(μ/EI)·Δx², which damps only what the mesh cannot resolve: waves of wave number k by the ratio c(kΔx)²/2.
 """
 
 from __future__ import annotations

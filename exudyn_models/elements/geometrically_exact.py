@@ -5,7 +5,7 @@
 Of a beam that shears, S = κ_sGA and the rotary inertia J are its own, and the material damps bending and shear alike.
 Of one that does not, the one-point rule, which does not lock, lets S be so large that the shear angle vanishes against
 the slope; a small rotary inertia keeps the mass matrix regular, and bending alone is damped. Second order in Δx where
-the cable is of fourth.
+the cable is of fourth. η, s, as of the cable.
 """
 
 from __future__ import annotations

@@ -48,8 +48,8 @@ class Integrator(Part, ABC):
     """Whether the scheme steps Maxwell branches (:mod:`hermite_fe.maxwell`)."""
 
     elements_in_first_front: ClassVar[float] = 0.03
-    """Thickness of the front, in smallest elements, after a first step that is chosen (:mod:`hermite_fe.resolution`).
-    More than one is for schemes that close many nodes in one long step without rebound."""
+    """A chosen first step (:mod:`hermite_fe.resolution`) ends when the front is so many smallest elements thick. More
+    than one, which is a long step, is for schemes that close many nodes at once without rebound."""
 
     time_step: Annotated[float | None, Quantity("s", "smallest step", above=0.0)] = None
     growth: Annotated[

@@ -168,6 +168,7 @@ def finish_step(problem: Problem, state: State, motion: Motion, t: float, h: flo
     mean_q, mean_v, lag, J = vectors.old_q, vectors.old_v, vectors.lag, vectors.jump_force
     force, product, change, half = vectors.force, vectors.scratch, vectors.b, 0.5 - scheme.alpha_f
     mean_forces(matrices.load, t, h, 0.5, force)
+    # mean_q, mean_v and lag are those of the start until here, then means and the change of the lag
     for i in range(q.size):
         change[i] = q[i] - mean_q[i]
         mean_q[i] = 0.5 * (q[i] + mean_q[i])

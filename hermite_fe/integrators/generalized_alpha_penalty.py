@@ -1,13 +1,14 @@
-"""Generalised-α (Chung & Hulbert 1993) with penalty contact: the discretisation of the Exudyn model.
+"""Generalised-α (Chung & Hulbert 1993) with penalty contact: a spring and a damper at each node.
 
     M v̇⁺ + C v⁺ + K q⁺ = F⁺ + Gᵀλ,    λ_j = −(k_c g_j + d_c ġ_j)·(tributary length of j)  where j is closed
 
-that is one spring and damper per node, active during penetration only, when their sum may pull (Exudyn's
-``ObjectContactCoordinate`` with linear damping). A node that lands within a step may be in the wall if taken as open,
-and off it if taken as closed: it is then closed, as long as its force pushes. Constraints must touch one dof each:
-contact at nodes. Measured at κ/ν = 0.5 and 0.1, τ = 0.1: with k = 10⁵, d = 10³ λ₀ is 1.6 and 1.1 % off, with the 10⁷
-and 3·10⁴ that these cases get by default 0.12 and 0.03 %, with 10⁸ and 10⁵ 0.05 and 0.003 %. There is no impact law and
-no hold; what springs and dampers take in, stored or dissipated, is booked as loss in impacts.
+A node is closed while it is in the wall, where the sum of both may pull, as in Exudyn's own ``ObjectContactCoordinate``
+with linear damping. One that lands may be in the wall if taken as open, and off it if taken as closed: off the wall a
+node that was closed stays so as long as its force pushes. (The Exudyn path is another discretisation: its contact never
+pulls, and its k and d go with the element.) Constraints must touch one dof each: contact at nodes. Measured at
+κ/ν = 0.5 and 0.1, τ = 0.1: with k = 10⁵, d = 10³ λ₀ is 1.6 and 1.1 % off, with the 10⁷ and 3·10⁴ that these cases get
+by default 0.12 and 0.03 %, with 10⁸ and 10⁵ 0.05 and 0.003 %. There is no impact law and no hold; what springs and
+dampers take in, stored or dissipated, is booked as loss in impacts.
 """
 
 from __future__ import annotations

@@ -33,11 +33,12 @@ from hermite_fe.constraints import Constraints, ask_for_gaps, constraints_of, no
 from hermite_fe.integrators.base import MOST_WORK, Integrator
 from hermite_fe.stepping import Problem, State, add_energies, add_impulses, end_step, forces_at, mean_forces, prepare
 
-STABLE = 0.8  # of a step, over the period of the fastest wave / 2π; Verlet's limit is 2
+STABLE = 0.8  # of the length of a step times the bound of the frequencies; Verlet's limit is 2
 
 
 class MasslessMemory(NamedTuple):
-    """conditions : of the contact, ``p`` being λ while they are solved; inner : (dofs,), the dofs with mass.
+    """conditions : of the contact, their ``p`` λ, N, when solved, then the step's impulse; inner : (dofs,), those with
+    mass.
 
     fastest : bound of the frequencies, 1/s; push : (rows,), λ at the instant reached. Work arrays, (dofs,): b, dq, mean
     velocity, force, scratch.

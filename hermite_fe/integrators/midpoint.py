@@ -112,8 +112,8 @@ def solve_step(problem: Problem, state: State, memory: MidpointMemory, t: float,
 
 @compiled_within
 def record_push(problem: Problem, state: State, memory: MidpointMemory, t: float, h: float, total: Array) -> None:
-    """Add the impulses of a step from t, and note the largest force, penetration and pressure so far, of the two walls
-    together. The forces on deflections add up to the whole force of a wall, N₁ + N₃ = 1."""
+    """Add the impulses of a step from t, and note the largest force, penetration and pressure so far, each of the wall
+    with the larger one. The forces on deflections add up to the whole force of a wall, N₁ + N₃ = 1."""
     rows = problem.rows
     for j in range(rows.gap.size):
         dof = rows.dofs[j, 0]

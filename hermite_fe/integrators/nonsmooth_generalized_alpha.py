@@ -8,8 +8,8 @@ The level at which the constraints are imposed (``levels``):
 - ``position_velocity`` : gaps and velocities, one after the other, no drift (after Brüls, Acary, Cardona
   2014, CMAME 281, 131);
 - ``position_velocity_acceleration`` : also the smooth acceleration obeys the constraints at rest on the wall, so
-  that lasting contact is second order as well (after Brüls, Acary, Cardona 2018, Multibody Syst.
-  Dyn. 44): the thesis's solver.
+  that lasting contact is second order as well (after Brüls, Acary, Cardona 2018, in Advanced Topics in
+  Nonsmooth Dynamics, Springer, 335): the thesis's solver.
 """
 
 from __future__ import annotations

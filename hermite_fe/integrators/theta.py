@@ -75,6 +75,7 @@ def begin_step(
         stiffen(state.branches, h, theta, problem.solver)
     b, moved, scratch, force = vectors.b, vectors.v_theta, vectors.scratch, vectors.force
     mean_forces(matrices.load, t, h, theta, force)
+    # v_θ is not known yet: its array holds q + θhv, and b first K times that
     for i in range(b.size):
         moved[i] = state.q[i] + theta * h * state.v[i]
     stiff_multiply(matrices.K, matrices.K_sums, moved, b)
