@@ -60,6 +60,7 @@ class Simulated:
         if until is None:
             largest, unit = reading["whole"], scales(impact)
         several = impact.opposite_wall is not None or impact.off_centre  # between two walls, or of a beam that rocks
+        listed = hits(history) if several or impact.net_load > 0.0 else []
         return {
             "path": history.path,
             "model": impact.model,
@@ -95,7 +96,7 @@ class Simulated:
             "contact_points_residual": balance.points,
             "initial_energy_residual": balance.initial_energy,
             **{name: getattr(balance, name) for name in ("gap_of_push", "penetration", "middle_slope")},
-            "hits": [asdict(hit) for hit in hits(history)] if several else None,
+            "hits": [asdict(hit) for hit in listed] if several or len(listed) > 1 else None,
             "warnings": [
                 *self._not_reached(), *self._reflected(infinite, end),
                 *(self._of_run() if self.whole is None else self.whole.warnings),
