@@ -22,6 +22,8 @@ from comparison.whole_numbers import WHOLE
 Energies = Mapping[str, float | None]
 
 LIGHTEST = {"youngs_modulus": (1e5, "Pa"), "density": (5.0, "kg/m³")}  # of materials, and units
+SOUND = (8.0, 30e3)  # m/s, √(E/ρ): soft rubber has 30, diamond 18 000; MPa for Pa makes 5 of steel, g/cm³ 160 000
+STRETCHED = 0.05  # |N|/EA, from which no material of a section is linear
 STUBBY = 15.0  # radii of gyration: some four depths
 OVERDAMPED = 0.5  # of the first mode, from which a damping ratio is no material's
 STEEP = 0.3  # slope of the bow at the beam's ends from which the small-slope theory deserves a warning
@@ -42,11 +44,7 @@ def doubts(impact: Impact, section: Section | None) -> list[str]:
             f"the bow's own slope at its ends is {slope:.2g}: theory and simulation are for small slopes (at 0.5 the "
             "force is about 10 % larger)"
         )
-    found += [
-        f"section.{name} = {value:g} {unit} is less than of any foam: is it in {unit}?"
-        for name, (least, unit) in LIGHTEST.items()
-        if (value := getattr(section, name, None)) is not None and value < least
-    ]
+    found += [] if section is None else _of_section(impact, section)
     radius = section.radius_of_gyration if section else math.sqrt(impact.rotary_inertia / impact.mass_per_length)
     if impact.length < STUBBY * radius:
         found.append(
@@ -74,6 +72,25 @@ def doubts(impact: Impact, section: Section | None) -> list[str]:
         )
     if force and section is not None:
         found.append(f"stresses include |N|/A = {1e-6 * section.stress(0.0, force):.4g} MPa of the axial force")
+    return found
+
+
+def _of_section(impact: Impact, section: Section) -> list[str]:
+    """Of its material, and of what an axial force does to it."""
+    found = [
+        f"section.{name} = {value:g} {unit} is less than of any foam: is it in {unit}?"
+        for name, (least, unit) in LIGHTEST.items()
+        if (value := getattr(section, name)) < least
+    ]
+    speed, (least, most) = math.sqrt(section.youngs_modulus / section.density), SOUND
+    if not found and not least <= speed <= most:
+        found.append(
+            f"section.youngs_modulus = {section.youngs_modulus:g} and section.density = {section.density:g} make a "
+            f"speed of sound of {speed:.3g} m/s, which no material has: are they in Pa and kg/m³?"
+        )
+    strain = section.stress(0.0, impact.axial_force) / section.youngs_modulus
+    if not found and strain > STRETCHED:
+        found.append(f"beam.axial_force = {impact.axial_force:g} N strains the section by {strain:.2g}: is it in N?")
     return found
 
 

@@ -130,12 +130,17 @@ def test_a_gate_that_touches_all_at_once_mistaken_units_and_a_hole_that_bends_on
     beam = {"beam": {"length": 3.0, "curvature": 0.01}, "impact": {"velocity": 1.0}}
 
     def said(**change: float) -> str:
-        case = case_from_tables(beam | {"section": {"kind": "pipe", "outer_diameter": 0.1, **steel, **change}})
+        force = {"axial_force": change.pop("axial_force", 0.0)}
+        section = {"kind": "pipe", "outer_diameter": 0.1, **steel, **change}
+        case = case_from_tables(beam | {"beam": beam["beam"] | force, "section": section})
         return " ".join(doubts(case.impact, case.section))
 
     assert said() == "" and "are the sizes of the section in m?" in said(outer_diameter=1.0)
     assert "radii of gyration" in said(outer_diameter=1.0, added_mass=5e4), "what moves along makes no beam slender"
     assert "youngs_modulus = 206 Pa" in said(youngs_modulus=206.0) and "is it in kg/m³" in said(density=2.7)
+    assert "speed of sound of 5.12 m/s" in said(youngs_modulus=206e3) and "1.62e+05 m/s" in said(density=7.85)
+    assert said(youngs_modulus=1e6, density=1100.0) == said(youngs_modulus=1.2e12, density=3510.0) == ""
+    assert "strains the section by 0.17: is it in N?" in said(axial_force=1e8)
     hole = Impact.whole_beam(0.5).replace(opposite_wall=0.3, wall_curvature=0.1)
     percent = Impact(2.0, 1.0, 2.0, 0.1, 1.0, damping=1.0 / (np.pi * first_mode(Impact(2.0, 1.0, 2.0, 0.1, 1.0))))
     assert "is it meant in percent?" in doubts(percent, None)[0]

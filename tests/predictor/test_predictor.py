@@ -28,7 +28,7 @@ needs_node = pytest.mark.skipif(shutil.which("node") is None, reason="Node.js is
 
 def evaluated(expression: str, argument: Any) -> Any:
     """What the page's scripts make of ``expression`` with ``given``, JSON in and out."""
-    parts = [script((*MODEL, *SIMULATION[:-1], "draw.js"))]
+    parts = [script((*MODEL, *SIMULATION[:-1], "draw.js", "form.js", "words.js"))]
     parts += [f"const given = {json.dumps(argument)};", f"console.log(JSON.stringify({expression}));"]
     done = subprocess.run(["node", "-"], input="\n".join(parts), capture_output=True, text=True, check=True)
     return json.loads(done.stdout)
@@ -115,6 +115,16 @@ def test_page_is_the_theory_on_random_beams() -> None:
                 compared += value is not None
     assert {"shear", "wall", "damping", "waves back from the ends", "slope", "first-order correction"} <= causes
     assert compared > 260 and unknown > 3
+
+
+@needs_node
+def test_the_page_doubts_a_speed_of_sound_and_a_strain_that_no_material_has() -> None:
+    """As `doubts` does (tests/comparison/test_prediction.py)."""
+    beam, numbers = "Beam.impact({...Beam.START, ...more})", "{restitution: {}, moment: {}, force: {}}"
+    told = f"given.map((more) => Words.warnings({beam}, {numbers}, Beam.problem({beam}, 0.01), false).join(' '))"
+    slow, fast, pulled, sane = evaluated(told, [{"youngs_modulus": 70e3}, {"density": 2.7}, {"tension": 2e6}, {}])
+    assert "speed of sound of 5.09 m/s" in slow and "speed of sound of 161" in fast
+    assert "strains the section by 0.06" in pulled and "speed" not in sane + pulled and "strains" not in sane
 
 
 def random_inputs(count: int, seed: int) -> list[dict[str, Any]]:

@@ -139,6 +139,7 @@ const Beam = (() => {
       mass: i.density * area + (i.section === "pipe" ? i.fluid_density * bore : 0) + i.added_mass,
       shear: sheared ? coefficient * i.youngs_modulus / (2 * (1 + n)) * area : 0,
       turning: sheared ? i.density * second : 0, gyration: sqrt(second / area),
+      sound: sqrt(i.youngs_modulus / i.density), strain: abs(i.tension) / (i.youngs_modulus * area),
     };
   }
 

@@ -47,6 +47,7 @@ const Words = (() => {
     const back = restitution.value !== null && problem.load + problem.pull > 0;
     const pull = b.tension * b.length ** 2 / (Math.PI ** 2 * b.stiffness); // over the buckling load
     const bends = pull > 0 ? "straightens it" : "bends it further";
+    const [slowest, fastest] = DOUBTS.sound, unreal = b.sound < slowest || b.sound > fastest;
     const said = [
       [!settled, "Without damping the outcome is irregular and does not converge: a band is given."],
       [!settled, `${COMMAND} takes more runs for it.`],
@@ -60,6 +61,8 @@ const Words = (() => {
       [Math.abs(pull) > DOUBTS.straightened && b.naturalCurvature === b.curvature, `The bow is not in equilibrium under the axial force, which ${bends}.`],
       [b.tension, `Stresses include ${quantity("stress", Beam.stress(b, 0), 4)} of the axial force.`],
       [b.length < DOUBTS.stubby * b.gyration, `The beam is only ${text(b.length / b.gyration, 2)} radii of gyration long.`],
+      [unreal, `A speed of sound of ${text(b.sound, 3)} m/s, √(E/ρ), is no material’s: look at modulus and density.`],
+      [!unreal && b.strain > DOUBTS.stretched, `The axial force strains the section by ${text(b.strain, 2)}: look at its unit.`],
     ];
     return said.filter(([is]) => is).map(([, sentence]) => sentence);
   }
