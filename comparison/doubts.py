@@ -54,6 +54,12 @@ def doubts(impact: Impact, section: Section | None) -> list[str]:
     ratio = math.pi * impact.damping * first_mode(impact)
     if ratio >= OVERDAMPED and not _has_no_size(impact):
         found.append(f"the material damps the first mode with a ratio of {ratio:.2g}: is it meant in percent?")
+    begin, end = impact.wall_span
+    critical = 2.0 * math.sqrt((impact.wall_stiffness or 0.0) * impact.mass_per_length)
+    if begin < end and impact.wall_damping > critical and not _has_no_size(impact):
+        found.append(
+            f"the wall's damping ratio is {impact.wall_damping / critical:.3g}, beyond critical: is it meant in percent?"
+        )
     if impact.relative_curvature == 0.0 and not impact.wall_in_part and impact.wall_stiffness is None:
         found.append(
             "a straight beam touches a rigid wall with its whole length at once: its rebound is that of the contact "
