@@ -57,9 +57,8 @@ def doubts(impact: Impact, section: Section | None) -> list[str]:
     begin, end = impact.wall_span
     critical = 2.0 * math.sqrt((impact.wall_stiffness or 0.0) * impact.mass_per_length)
     if begin < end and impact.wall_damping > critical and not _has_no_size(impact):
-        found.append(
-            f"the wall's damping ratio is {impact.wall_damping / critical:.3g}, beyond critical: is it meant in percent?"
-        )
+        ratio = impact.wall_damping / critical
+        found.append(f"the wall's damping ratio is {ratio:.3g}, beyond critical: is it meant in percent?")
     if impact.relative_curvature == 0.0 and not impact.wall_in_part and impact.wall_stiffness is None:
         found.append(
             "a straight beam touches a rigid wall with its whole length at once: its rebound is that of the contact "
@@ -82,7 +81,7 @@ def doubts(impact: Impact, section: Section | None) -> list[str]:
 
 
 def _of_section(impact: Impact, section: Section) -> list[str]:
-    """Of its material, and of what an axial force does to it."""
+    """Of its material, of what an axial force does to it, and of what weighs."""
     found = [
         f"section.{name} = {value:g} {unit} is less than of any foam: is it in {unit}?"
         for name, (least, unit) in LIGHTEST.items()
@@ -97,6 +96,12 @@ def _of_section(impact: Impact, section: Section) -> list[str]:
     strain = section.stress(0.0, impact.axial_force) / section.youngs_modulus
     if not found and strain > STRETCHED:
         found.append(f"beam.axial_force = {impact.axial_force:g} N strains the section by {strain:.2g}: is it in N?")
+    if section.added_mass and impact.net_load:
+        found.append(
+            f"gravity, or an acceleration, acts on all of the mass, section.added_mass = {section.added_mass:g} kg/m "
+            "included, and nothing takes buoyancy off: of a beam in a fluid give impact.gravity as g times the "
+            "submerged weight over the weight of all of the mass"
+        )
     return found
 
 

@@ -148,7 +148,7 @@ const Beam = (() => {
     const made = section(i), curvature = bow(i), drop = i.approach === "drop";
     const gravity = i.gravity ?? (drop ? GRAVITY : 0), stiffness = i.wall_stiffness ?? 0;
     return {
-      ...made, length: i.length, curvature, tension: i.tension,
+      ...made, length: i.length, curvature, tension: i.tension, weightAdded: gravity * i.added_mass,
       velocity: drop ? sqrt(2 * gravity * i.drop_height) : i.velocity,
       acceleration: gravity + (i.load - i.tension * curvature) / made.mass,
       wallCurvature: i.wall_curvature, wallStiffness: stiffness, naturalCurvature: i.natural_share * curvature,
