@@ -13,14 +13,17 @@ LARGEST_RECORD = 60_000_000  # values a field: half a gigabyte
 LARGEST = 1e60  # of every number, and its inverse of what is positive: fourth powers can still be calculated with
 
 
-def finite(name: str, value: float) -> float:
-    """Return ``value`` as a float, or raise ``ValueError`` naming the field when it is no finite number."""
+def finite(name: str, value: float, unit: str | None = None) -> float:
+    """Return ``value`` as a float, or raise ``ValueError`` naming the field when it is no finite number. unit : of a
+    field that may be written in a file."""
     try:
         number = math.nan if isinstance(value, (bool, str, bytes)) else float(value)
     except (TypeError, ValueError, OverflowError):
         number = math.nan
     if not math.isfinite(number):
-        raise InputError(f"{name} must be a finite number (got {shortened(value)})")
+        wanted = "" if unit in (None, "", "1") else f" in {unit}"
+        wanted += ", with a decimal point and without its unit" if unit is not None and isinstance(value, str) else ""
+        raise InputError(f"{name} must be a finite number{wanted} (got {shortened(value)})")
     return number
 
 

@@ -58,10 +58,10 @@ def _one_of(table: Part, group: int, *, required: bool = True) -> tuple[str | No
     return given[0] if given else (None, 0.0)
 
 
-def _only_with(name: str, value: Any, other: str, is_given: Any) -> None:
-    """Raise :class:`InputError` for a value that means nothing without another."""
+def _only_with(name: str, value: Any, other: str, is_given: Any, instead: str = "") -> None:
+    """Raise :class:`InputError` for a value that means nothing without another. instead : what to do then."""
     if value is not None and not is_given:
-        raise InputError(f"{name} has no effect without {other} (got {value!r})")
+        raise InputError(f"{name} has no effect without {other} (got {value!r}){instead}")
 
 
 def _of_section(beam: BeamTable, section: Section | None, name: str) -> float | None:
@@ -196,7 +196,8 @@ def _velocity(table: _ImpactTable, length: float, ends: tuple[str, str]) -> floa
 def _free_flight(table: _ImpactTable, values: Mapping[str, Any]) -> float:
     """a₀, m/s²: as given, or that of free flight under gravity: a₀ = g cos θ − (EI q₀ + N K)/μ."""
     gravity, force = _gravity(table), values["axial_force"]
-    _only_with("impact.gravity_angle", table.gravity_angle or None, "impact.gravity", gravity)
+    instead = ": give it, or set impact.gravity_angle to 0"
+    _only_with("impact.gravity_angle", table.gravity_angle or None, "impact.gravity", gravity, instead)
     if table.acceleration is not None:
         return _one_of(table, 1)[1]
     bent = values["bending_stiffness"] * values["fourth_derivative"] + force * values["curvature"]

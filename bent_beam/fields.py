@@ -76,7 +76,7 @@ class Quantity:
         if whole:
             value = checks.whole(name, value, int(self.least or 0))
             return value if self.most is None else int(checks.between(name, value, self.least or 0, self.most))
-        number = checks.finite(name, value)
+        number = checks.finite(name, value, self.unit)
         if abs(number) > checks.LARGEST:
             raise InputError(f"{name} must not exceed {checks.LARGEST:g} (got {checks.shortened(value)})")
         if self.above == 0.0 and 0.0 < abs(number) < 1.0 / checks.LARGEST:

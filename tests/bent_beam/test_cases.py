@@ -154,7 +154,7 @@ def test_damping_ratio_and_loss_factor_are_the_same_time_constant():
         ({"beam": {"curvature": 0.1, "sagitta_length": 1.0}}, "sagitta_length has no effect"),
         ({"impact": {"velocity": 1.0, "angular_arm": 1.0}}, "angular_arm has no effect"),
         ({"impact": {"angular_speed": 0.2}}, "angular_arm, m, is required .*got 0.2 alone"),
-        ({"impact": {"velocity": 1.0, "gravity_angle": 1.0}}, "gravity_angle has no effect"),
+        ({"impact": {"velocity": 1.0, "gravity_angle": 1.0}}, "no effect .*or set impact.gravity_angle to 0"),
         ({"impact": {"amplitude": 0.01}}, "impact.frequency, Hz, is required"),
         ({"impact": {"velocity": 1.0, "frequency": 5.0}}, "frequency has no effect without impact.amplitude"),
         ({"wall": {"clearance": 0.01}}, "wall.clearance has no effect on a free beam"),
@@ -179,7 +179,9 @@ def test_damping_ratio_and_loss_factor_are_the_same_time_constant():
         # mistakes
         ({"beam": BOW | {"length": -1.0}}, r"^beam.length must be positive \(got -1.0\)"),
         ({"beam": BOW | {"lengt": 1.0}}, r"beam.lengt .* \(did you mean length\?\)"),
-        ({"impact": {"velocity": "fast"}}, r"impact.velocity must be a finite number \(got 'fast'\)"),
+        ({"impact": {"velocity": "fast"}}, r"impact.velocity must be a finite number in m/s, .*\(got 'fast'\)"),
+        ({"beam": BOW | {"length": "40cm"}}, r"^beam.length must be a finite number in m, .*without its unit .*'40cm'"),
+        ({"beam": BOW | {"damping_ratio": "1 %"}}, r"finite number, with a decimal point and without its unit .*'1 %'"),
         ({"impact": None}, "impact is required"),
         ({"meshh": {}}, r"meshh is not a known setting \(did you mean mesh\?\)"),
         ({"mesh": {"element_length": 1.0}}, "mesh.kind is required"),
@@ -191,6 +193,13 @@ def test_what_clashes_or_is_mistaken_is_named_with_its_value(tables, message):
     with pytest.raises(InputError, match=message) as caught:
         case(**tables)
     assert "\n" not in str(caught.value)
+
+
+def test_a_decimal_comma_in_a_file_is_named(tmp_path):
+    for text, said in (("length = 0,40\n", "decimal point, no comma"), ("length = 4 m # 0,40\n", r"column 12\)$")):
+        (tmp_path / "case.toml").write_text(f"[beam]\n{text}")
+        with pytest.raises(InputError, match=said):
+            load_case(tmp_path / "case.toml")
 
 
 @pytest.mark.parametrize(
