@@ -153,7 +153,7 @@ def simulate(
         raise InputError(f'--until takes "separation" (got {until!r}); an end time is run.end_time')
     unused = {} if until is None else {"run": "--until separation says how long"}
     check_effect(assignments or (), [path], unused, "--set")
-    check_out(out, overwrite)
+    check_out(out, overwrite, ".nc")
     from comparison.simulating import simulate_case  # SciPy: no refusal above waits for it
     from comparison.texts import run_text
 

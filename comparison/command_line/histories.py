@@ -25,7 +25,7 @@ def rerun(
     from bent_beam.history import ImpactHistory
     from comparison.compare import rerun_history, rerun_text
 
-    check_out(out, overwrite)
+    check_out(out, overwrite, ".nc")
     with progress(f"again: {file.name}", quiet) as bar:
         found = rerun_history(ImpactHistory.load(file), out, bar.fraction)
     emit(found, as_json, lambda: rerun_text(found))

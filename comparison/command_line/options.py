@@ -140,12 +140,15 @@ def printable(text: str) -> str:
     return "".join(c if c.isprintable() or c == "\n" else c.encode("unicode_escape").decode() for c in text)
 
 
-def check_out(out: Path | None, overwrite: bool) -> None:
-    """``InputError`` when the file cannot be written, or is there already."""
+def check_out(out: Path | None, overwrite: bool, suffix: str = "") -> None:
+    """``InputError`` when the file cannot be written, is there already, or ends in another suffix than what it holds
+    has (``""``: any)."""
     from comparison.store import check_writable
 
     if out is None and overwrite:
         raise InputError("--overwrite has no effect without --out: leave it out")
+    if out is not None and suffix and out.suffix not in ("", suffix):
+        raise InputError(f"--out must end in {suffix}, as that is what the file is (got {out})")
     if out is not None and out.exists() and not overwrite:
         raise InputError(f"{out} exists already (give another name, or --overwrite)")
     check_writable(out, folder=False)

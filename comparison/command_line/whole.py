@@ -88,7 +88,9 @@ def bounce(
         titled = tables if len(paths) == 1 else [f"{name}\n{table}\n" for name, table in zip(paths, tables)]
         of = [f"Hits, {paths[0]}"] if len(paths) > 1 else []
         table = ["", *of, hits_table(rows, OF_ONE_WALL)] if rows else []
-        return "\n".join([*titled, *table, *(f"warning: {line}" for line in fewer)])
+        made_up = ["Of a beam with L/2 = EI = mu = V0 = 1 in SI units: N, ms and m are those of no real beam."]
+        said = [] if case is not None else made_up
+        return "\n".join([*titled, *said, *table, *(f"warning: {line}" for line in fewer)])
 
     emit(document, as_json, text)
     if problem_of_files:

@@ -82,6 +82,8 @@ def test_a_match_whose_rows_are_all_refused_is_bad_input_and_still_a_document(ca
         # what would have no effect
         (["simulate", K10, "--set", "exudyn={refine=2.0}"], "has no effect: the path is hermite"),
         (["problem", "leading-0.5", "--overwrite"], "without --out"),
+        (["simulate", K10, "--out", "run.csv"], "--out must end in .nc, as that is what the file is (got run.csv)"),
+        (["predict", K10, "--theory-only", "--set", "impact.rotation=5"], "bentbeam bounce follows the full beam"),
         (["simulate", K10, "--until", "separation", "--set", "run.end_time=1"], "--until separation says how long"),
         (["bounce", K10, "--set", "self_similar.refine=2"], "the path is hermite"),
         (["bounce", K10, "--set", "run.duration=1"], "a whole impact ends with the last separation"),
@@ -114,6 +116,11 @@ def test_a_match_whose_rows_are_all_refused_is_bad_input_and_still_a_document(ca
 )
 def test_bad_input_is_one_line_and_exit_2(arguments, message):
     assert message in refused(*arguments)
+
+
+def test_the_beam_of_two_numbers_is_told_to_be_no_real_one():
+    code, out, _ = command("bounce", "--kappa-over-nu", 2, "--damping", 0.1, "--set", "hermite.refine=0.25", "--quiet")
+    assert code == 0 and "L/2 = EI = mu = V0 = 1" in out
 
 
 def test_a_solver_that_cannot_finish_is_exit_3_with_a_partial_history(tmp_path, monkeypatch):
