@@ -45,9 +45,10 @@ BEFORE = {"shear": "shear deformation matters; for the reaction twice as long", 
 """What a contact does; why the theory ends, and begins late, by the names that the theory has for it."""
 
 
-def beam_line(model: str, velocity: float) -> str:
-    """The beam that an answer is of, as a sentence, and the velocity, m/s, at which it touches the wall."""
-    return f"{BEAMS[model]} It arrives at {readable(velocity)} m/s."
+def beam_line(model: str, velocity: float, clearance: float = 0.0) -> str:
+    """The beam that an answer is of, as a sentence, and the velocity, m/s, at which it touches the wall, or before one
+    that is apart from it passes its rest position."""
+    return f"{BEAMS[model]} It {'passes its rest position' if clearance else 'arrives'} at {readable(velocity)} m/s."
 
 
 def readable(value: Any, digits: int = 4) -> str:

@@ -155,7 +155,7 @@ def _whole(document: dict[str, Any]) -> list[str]:
     said = [f"warning: {w}" for w in whole["warnings"] if w not in document["warnings"]]
     largest = f"Largest impulse within {milliseconds(whole['push_window'])}: {_scaled(whole['push'], 1.0)} N s."
     if force := whole["peak_force"]:
-        largest = f"Largest force of the whole impact: {_scaled(force, 1e-3)} kN."
+        largest = f"Largest force of the whole impact: {' '.join(in_unit(number_from(force), 'N'))}."
     largest = f"{largest} {_hardest(whole)}"
     if whole["restitution"]["value"] is None and "band" not in whole["restitution"]:
         return [largest, *said]
@@ -178,13 +178,14 @@ def wall_lines(document: dict[str, Any]) -> list[str]:
         return []
     if wall["peak_force"] is None:
         return ["The theory has no largest force for this damping of the wall or this kappa/nu."]
-    force, time, deep = 1e-3 * wall["peak_force"], 1e3 * wall["peak_force_time"], wall["penetration"]
+    (scale, unit), (per, line) = unit_for("N", [wall["peak_force"]]), unit_for("N/m", [wall["pressure"]])
+    force, time, deep = scale * wall["peak_force"], 1e3 * wall["peak_force_time"], wall["penetration"]
     deepest = "" if deep is None else f"largest penetration {1e3 * deep:.3g} mm, "
     lines = [
-        f"Largest force on the wall (theory, an infinite beam): {force:.4g} kN at {time:.3g} ms, over a zone of "
+        f"Largest force on the wall (theory, an infinite beam): {force:.4g} {unit} at {time:.3g} ms, over a zone of "
         f"± {wall['half_contact_length']:.3g} m.",
-        f"Of this push: {deepest}largest pressure {1e-3 * wall['pressure']:.3g} kN/m. "
-        f"Half or twice the stiffness, at this damping ratio: {force * 0.5**0.25:.4g} or {force * 2.0**0.25:.4g} kN.",
+        f"Of this push: {deepest}largest pressure {per * wall['pressure']:.3g} {line}. Half or "
+        f"twice the stiffness, at this damping ratio: {force * 0.5**0.25:.4g} or {force * 2.0**0.25:.4g} {unit}.",
     ]
     if wall["spoiled_by"] is not None:
         lines.append(f"This force does not hold for this beam (limit: {wall['spoiled_by']}): use the simulation.")
@@ -275,7 +276,7 @@ def run_text(found: dict[str, Any], verbose: bool = False) -> str:
         "",
         text_table(["", "value", "unit", "theory"], lines + (_of_experts(found) if verbose else [])),
         "",
-        beam_line(found["model"], found["velocity"]),
+        beam_line(found["model"], found["velocity"], found["clearance"]),
         "± is the error bar by other runs of the same beam; theory: the closed form where it holds to 2 %. Moment and",
         "stress are the largest of all steps until then; a longer run may show larger ones.",
     ]

@@ -163,6 +163,7 @@ def test_a_wall_that_gives_way_and_is_not_yet_touched_has_no_place_of_its_force(
     case = load_case(CASES / "tube_between_plates.toml", ["wall.clearance=2e-4", "wall.opposite=2e-4"])
     said = run_text(simulate_case(case, "hermite", until=3e-4, error_bars="drift", save=20).to_dict())
     assert "largest force  " in said and "nan" not in said.lower() and "None" not in said
+    assert "It passes its rest position at" in said and "arrives" not in said
     assert "0.3 ms after it passes its rest position" in said and "has not reached its wall, 0.0002 m away" in said
 
 

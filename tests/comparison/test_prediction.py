@@ -93,6 +93,11 @@ def test_a_rod_under_its_weight_leaves_with_what_is_known_of_it(tmp_path: Path) 
     assert f"until 1 ms (simulation): {number_from(late).scaled(1e-6)}" in text
     assert f"(simulation): {number_from(largest).scaled(1e-6)}" in text
     assert "coefficient of restitution 0.63" in text and "rigid wall has no largest force" in text
+    wall = {"peak_force": 47.2, "peak_force_time": 1e-3, "half_contact_length": 0.1, "pressure": 900.0}
+    force = {"peak_force": {"value": 47.2, "error": 0.2}, "peak_force_time": 1e-3, "peak_force_place": 0.0}
+    document |= {"wall": wall | {"penetration": None, "spoiled_by": None}}
+    text = prediction_text(document | {"whole_impact": document["whole_impact"] | force})
+    assert "beam): 47.2 N at" in text and "pressure 0.9 kN/m" in text and "impact: 47.2 ± 0.2 N." in text
 
 
 def test_a_damping_that_is_not_stated_is_answered_over_three_and_one_that_is_stated_once(tmp_path: Path) -> None:
