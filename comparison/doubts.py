@@ -22,7 +22,7 @@ from comparison.whole_numbers import WHOLE
 Energies = Mapping[str, float | None]
 
 LIGHTEST = {"youngs_modulus": (1e5, "Pa"), "density": (5.0, "kg/m³")}  # of materials, and units
-SOUND = (8.0, 30e3)  # m/s, √(E/ρ): soft rubber has 30, diamond 18 000; MPa for Pa makes 5 of steel, g/cm³ 160 000
+SOUND = (9.0, 30e3)  # m/s, √(E/ρ): soft rubber has 30, diamond 18 000; MPa for Pa makes 5 of steel, g/cm³ 160 000
 STRETCHED = 0.05  # |N|/EA, from which no material of a section is linear
 STUBBY = 15.0  # radii of gyration: some four depths
 OVERDAMPED = 0.5  # of the first mode, from which a damping ratio is no material's
