@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import time as clock
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -23,6 +24,7 @@ from hermite_fe.maxwell import branch_energy
 from hermite_fe.stepping import ENERGIES, LARGEST, problem_of, state_of
 from hermite_fe.system import System
 
+SOON, LONG = 5.0, 60.0  # s: so long after its start a run that will take longer says so
 UNSTABLE = 10.0  # times the energy that a beam has been given, at the end: what is not resolved may swing in between
 FAILURES = {
     SINGULAR: "the step matrix is not positive definite",
@@ -232,7 +234,7 @@ def integrate(
     samples: list[dict[str, Any]] = []
     failure = ""
     run.compile()
-    start, worked, started = run.energy(), 0.0, clock.perf_counter()
+    start, worked, started, said = run.energy(), 0.0, clock.perf_counter(), False
     for step in kept:
         status = run.advance_to(int(step))
         if status != SOLVED:
@@ -243,6 +245,12 @@ def integrate(
         worked = max(worked, abs(sums["work_of_loads"]))
         if progress is not None:
             progress(float(step) / max(float(kept[-1]), 1.0))
+        spent = clock.perf_counter() - started
+        if not said and step and spent >= SOON:
+            said, left = True, spent * (float(kept[-1]) / float(step) - 1.0)
+            if left > LONG:
+                how, log = "about" if until is None else "up to", logging.getLogger("bent_beam")
+                log.warning("%s %.2g minutes more: %d steps of %d nodes", how, left / 60.0, kept[-1], system.dofs // 2)
         if until is not None and until(run):
             break
     if not failure and run.energy() > UNSTABLE * (start + worked) > 0.0:

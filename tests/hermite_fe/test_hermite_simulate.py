@@ -70,6 +70,15 @@ def test_a_straight_beam_lands_all_at_once_on_parts_that_are_chosen() -> None:
     assert not any("front" in warning for warning in history.warnings)
 
 
+def test_a_run_of_minutes_says_once_how_many_are_left(monkeypatch, caplog) -> None:
+    for name in ("SOON", "LONG"):
+        monkeypatch.setattr(f"hermite_fe.run.{name}", 0.0)
+    beam = Impact.whole_beam(2.0, relative_damping=0.1)
+    simulate(beam, end_time=0.1, mesh=UniformMesh(element_length=0.1), save=8)
+    (said,) = caplog.record_tuples
+    assert said[0] == "bent_beam" and "about" in said[2] and "minutes more" in said[2]
+
+
 def test_a_run_that_fails_keeps_its_partial_history() -> None:
     class Breaking(MoreauJean):
         def advance(self, problem, state, memory, times, first, last):  # type: ignore[no-untyped-def]
