@@ -169,7 +169,7 @@ def _hardest(found: dict[str, Any]) -> str:
     if found["peak_force_time"] is None:
         return f"A rigid wall has no largest force; its largest push begins at {milliseconds(found['push_time'])}."
     when, where = milliseconds(found["peak_force_time"]), found["peak_force_place"]
-    return f"The largest force acts at {when}, on average {where:.3g} m from the middle."
+    return f"The largest force acts at about {when}, on average about {where:.2g} m from the middle."
 
 
 def wall_lines(document: dict[str, Any]) -> list[str]:

@@ -284,7 +284,7 @@ def hits(history: ImpactHistory) -> list[Hit]:
         place = float(size @ np.abs(history.contact_positions(0))) / float(size.sum())
         end = 0.5 * float(time[k - 1] + time[k])
         before, after = _velocity(history, i, float(time[i])), _velocity(history, k, end)
-        numbers = (place, given.sum(), before, after, energy[k] + work[k], energy[i] - energy[k])
+        has, lost, pushed = float(energy[k] + work[k]), float(energy[i] - energy[k]), float(given.sum())
         moment = peak_moment(history, float(time[until]), since=i).moment if "largest_moment" in history else None
-        found.append(Hit(wall, float(time[i]), end, *map(float, numbers), moment))
+        found.append(Hit(wall, float(time[i]), end, place, pushed, before, after, has, lost, moment))
     return found
