@@ -90,22 +90,21 @@ def begin_step(
 def finish_step(problem: Problem, state: State, p: Array, vectors: Vectors, h: float, theta: float) -> int:
     """Move on by ``vectors.dv`` and add the energies, p : (rows,), impulses of rigid walls; returns the status."""
     matrices, q, v, dv, v_theta = problem.matrices, state.q, state.v, vectors.dv, vectors.v_theta
-    mean_v, scratch, loss = vectors.mean_v, vectors.scratch, 0.0
+    mean_v, scratch = vectors.mean_v, vectors.scratch
     for i in range(q.size):
         v_theta[i] = v[i] + theta * dv[i]
         mean_v[i] = v[i] + 0.5 * dv[i]
         q[i] += h * v_theta[i]
         v[i] += dv[i]
     state.energy[MATERIAL] += step_branches(state.branches, state.bending, v_theta, h, state.stretch)
-    if theta != 0.5:  # Δvᵀ(MΔv − Gᵀp) + h² v_θᵀK v_θ
-        multiply(matrices.M, dv, scratch)
-        loss = dot(dv, scratch)
-        stiff_multiply(matrices.K, matrices.K_sums, v_theta, scratch)
-        loss += h * h * dot(v_theta, scratch)
-        for j in range(p.size):
-            if p[j] != 0.0:
-                loss -= p[j] * row_times(problem.rows, dv, j)
-    loss = (theta - 0.5) * loss
+    multiply(matrices.M, dv, scratch)
+    loss = dot(dv, scratch)
+    stiff_multiply(matrices.K, matrices.K_sums, v_theta, scratch)
+    loss += h * h * dot(v_theta, scratch)
+    for j in range(p.size):
+        if p[j] != 0.0:
+            loss -= p[j] * row_times(problem.rows, dv, j)
+    loss = (theta - 0.5) * loss  # of Δvᵀ(MΔv − Gᵀp) + h² v_θᵀK v_θ
     add_energies(problem, state, h, h * dot(vectors.force, v_theta), p, mean_v, v_theta, loss, scratch)
     return end_step(state)
 

@@ -98,6 +98,10 @@ def test_a_run_that_fails_keeps_its_partial_history() -> None:
 def test_the_part_of_a_long_beam_that_is_modelled_grows_as_bending_spreads() -> None:
     early, late = (chosen_domain(SHORT.replace(length=1e4), time) for time in (0.01, 0.09))
     assert early is not None and late == pytest.approx(3.0 * early) and 10.0 < early / 0.1 < 50.0
+    bent_up = Impact.dimensionless(0.3, length=1e4, epsilon_psi=0.5)  # meets the wall again where y₀ = 0
+    cut = chosen_domain(bent_up, 0.1)
+    assert cut is not None
+    assert (bent_up.free_motion(0.3)(np.array([0.7, 1.2, 1.26]) * cut, 0.0) > 0.0).tolist() == [False, False, True]
 
 
 EARLY_OTHERS = {
