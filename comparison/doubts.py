@@ -59,6 +59,11 @@ def doubts(impact: Impact, section: Section | None) -> list[str]:
     if begin < end and impact.wall_damping > critical and not _has_no_size(impact):
         ratio = impact.wall_damping / critical
         found.append(f"the wall's damping ratio is {ratio:.3g}, beyond critical: is it meant in percent?")
+    sunk = impact.velocity * math.sqrt(impact.mass_per_length / (impact.wall_stiffness or math.inf))  # of a stiff beam
+    if begin < end and sunk > impact.half_length and not _has_no_size(impact):
+        found.append(
+            f"the wall gives way by some {sunk:.2g} m, the beam is {impact.length:g} m long: is wall.stiffness in N/m²?"
+        )
     if impact.relative_curvature == 0.0 and not impact.wall_in_part and impact.wall_stiffness is None:
         found.append(
             "a straight beam touches a rigid wall with its whole length at once: its rebound is that of the contact "

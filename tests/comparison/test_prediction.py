@@ -154,6 +154,9 @@ def test_a_gate_that_touches_all_at_once_mistaken_units_and_a_hole_that_bends_on
     assert "is it meant in percent?" in doubts(percent, None)[0]
     soft = Impact(2.0, 1.0, 2.0, 0.1, 1.0, damping=0.1, wall_stiffness=8.0, wall_damping=80.0)
     assert "wall's damping ratio is 14.1, beyond" in doubts(soft, None)[0]
+    assert doubts(soft.replace(wall_damping=0.0, wall_stiffness=0.8), None)[0].startswith(
+        "the wall gives way by some 1.1 m"
+    )
     assert doubts(soft.replace(wall_damping=5.6), None) == doubts(soft.replace(wall_from=0.1, wall_to=0.1), None) == []
     assert "the second wall is flat" in doubts(hole, None)[-1] and doubts(hole.replace(wall_curvature=0.0), None) == []
 
