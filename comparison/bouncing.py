@@ -14,6 +14,8 @@ from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from bent_beam import Case, Impact, ImpactHistory, InputError, load_case
 from bent_beam.cases import case_from_tables
 from bent_beam.checks import finite
@@ -21,7 +23,8 @@ from bent_beam.free_flight import LOWEST_PERIOD, may_return
 from bent_beam.hysteresis import converges, first_mode
 from bent_beam.measure.balance import balance_of
 from bent_beam.measure.numbers import FACTOR, Band, Number
-from bent_beam.measure.whole_impact import Hit, hits, whole_impact
+from bent_beam.measure.reduction import moments_around
+from bent_beam.measure.whole_impact import WINDOW, Hit, hits, whole_impact
 from bent_beam.method import LONGEST_OF_WALL, ON_WALL, Method, for_whole_beam, separation_times, time_on_wall
 from comparison.bounced import Bounce
 from comparison.doubts import energy_at_end
@@ -38,6 +41,7 @@ RUNS = 24  # of a band
 DAMPING_RATIOS = (0.0002, 0.002, 0.02)  # of the first mode: bare steel, a bar as it is held, with joints
 INSTANTS = 200  # saved a T* of a run that follows hits
 RESTS = 10.0  # periods of the lowest mode: a hit that lasts longer is the last
+ABOUT = 0.002  # T*: moments so near the largest are as unsure as it is
 RETURNS = 2.0  # bars of the restitution: the mean velocity has one, waves move a point of the beam as much again
 LARGEST_KAPPA = 100.0  # beyond, and long before, the beam touches in one point: infinity is calculated as this
 
@@ -49,9 +53,12 @@ def problem(kappa_over_nu: float, damping: float) -> Impact:
 
 
 def whole_reading(history: ImpactHistory) -> dict[str, Any]:
-    """A whole impact as it is kept, JSON-ready: :class:`bent_beam.measure.whole_impact.WholeImpact`, balance and
-    energies."""
+    """A whole impact as it is kept, JSON-ready: :class:`bent_beam.measure.whole_impact.WholeImpact`, times and largest
+    moments around the largest, balance and energies."""
     found = asdict(whole_impact(history)) | {"balance": asdict(balance_of(history)), "energy": energy_at_end(history)}
+    unit, moment = history.impact.slow_time_scale, history.impact.moment_scale
+    times, moments = moments_around(history, found["peak_moment_time"] * unit, WINDOW * unit)
+    found["moment_around"] = [(times / unit).tolist(), (moments / moment).tolist()]
     return found | {"loss": history.settings.get("hysteretic_loss")}
 
 
@@ -129,6 +136,7 @@ def whole_numbers(made: Runs) -> dict[str, Number | Band]:
     known["peak_moment_place"] = {"element": reading["element"]}
     known["peak_moment"] = unseen_of_moment(made)
     if not made.question.band:
+        known["peak_moment"]["about_its_time"] = _moment_about(made)
         known["last_contact"]["returns"] = _may_return(made, numbers_of(made, ("restitution",), known)["restitution"])
     found = dict(bands_of(made, names) if made.question.band else numbers_of(made, names, known))
     if not all(run.reading["left"] for run in made.every):
@@ -147,6 +155,21 @@ def _shifted(made: Runs) -> float:
         apart = [found[-1][0] - found[-2][1] for found in (own, other) if len(found) > 1]
         shifts += FACTOR * min([abs(own[-1][0] - other[-1][0]), *apart])
     return shifts
+
+
+def _moment_about(made: Runs) -> float:
+    """What companions change of the moment within :data:`ABOUT` of the time of the largest, root of the mean square,
+    beyond what they change of the largest: maxima of curves that differ may agree by chance. Nothing where another
+    moment is a companion's largest."""
+    reading, more = made.run.reading, 0.0
+    time, own = np.array(reading["moment_around"])
+    near = np.abs(time - reading["peak_moment_time"]) <= ABOUT * (1.0 + 1e-9)
+    for companion in made.companions.values():
+        times, other = np.array(companion.reading["moment_around"])
+        if times.size and (both := near & (times[0] <= time) & (time <= times[-1])).any():
+            apart = float(np.sqrt(np.mean((np.interp(time[both], times, other) - own[both]) ** 2)))
+            more += FACTOR * max(apart - abs(companion.reading["peak_moment"] - reading["peak_moment"]), 0.0)
+    return more
 
 
 def _may_return(made: Runs, restitution: Number) -> float:

@@ -158,6 +158,14 @@ def _side(history: ImpactHistory, place: float) -> float:
     return place if history.impact.off_centre else abs(place)
 
 
+def moments_around(history: ImpactHistory, time: float, window: float) -> tuple[Array, Array]:
+    """Saved instants within ``window`` of ``time``, s, and the largest moment at each, N m; of all steps those that
+    :func:`peak_moment` looks at."""
+    first = _first_resolved(history, history.time.size) if "largest_moment" in history else 1
+    near = np.abs(history.time[first:] - time) <= window * (1.0 + 1e-9)
+    return history.time[first:][near], history.moment[first:][near]
+
+
 def moment_left_out(history: ImpactHistory, until: float | None = None) -> float:
     """How large the moment, N m, may have been in the first instants that :func:`peak_moment` leaves out, of a damped
     beam before a rigid wall: there it rises above what follows and falls within some η. What the mesh made of it, and

@@ -104,6 +104,24 @@ def test_the_bar_of_the_last_contact_holds_the_shift_of_its_beginning(other, shi
     assert number.parts["contacts"] == pytest.approx(FACTOR * shift, abs=0.05)  # saved every 0.05 T*
 
 
+def test_largest_moments_of_curves_that_differ_around_them_do_not_agree() -> None:
+    """Curves 0.02 apart with one maximum, of 1 at 0.3 T*; a companion that is 0.05 higher all over, which counts once;
+    one whose largest is another, at 0.7 T*, where this one's is not kept."""
+    read = whole_reading(pushed_until(0.5))
+    assert read["moment_around"][0] == [read["peak_moment_time"]]  # saved every 0.05 T*
+    steps = np.arange(-8, 9)
+    times, own = 0.3 + 1e-3 * steps, 1.0 - 0.02 * np.abs(steps)
+    crossing = own - 0.02 * np.sign(steps)  # two of the five instants within 0.002 T* are above, two below
+    companions = ((crossing, 1.0, 0.0, 0.02 * 0.8**0.5), (own + 0.05, 1.05, 0.0, 0.05), (own, 1.0, 0.4, 0.0))
+    for other, largest, later, changed in companions:
+        both = [
+            read | {"peak_moment": moment, "peak_moment_time": time[8], "moment_around": [time, curve]}
+            for moment, time, curve in ((1.0, times, own), (largest, times + later, other))
+        ]
+        made = dataclasses.replace(runs(*both), question=Question(problem(2.0, 1e-3), COARSE))
+        assert whole_numbers(made)["peak_moment"].bar == pytest.approx(FACTOR * changed)
+
+
 @pytest.mark.parametrize("band", [None, (2, 0)])
 def test_a_single_run_that_ends_at_the_wall_is_told_with_the_numbers_that_it_enters(band) -> None:
     made = runs(*(whole_reading(pushed_until(end)) for end in (0.5, 9.0)))
