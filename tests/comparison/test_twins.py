@@ -25,7 +25,7 @@ OF_INSTANT = {"half_contact_length": "m", "element": "m", "reaction": "N", "impu
 OF_INSTANT |= {f"peak_{name}": unit for name, unit in zip(("force", "pressure", "penetration"), ("N", "N/m", "m"))}
 OF_INSTANT |= {"peak_moment": "N m", "moment_left_out": "N m", "peak_moment_place": "m", "peak_moment_time": "s"}
 OF_INSTANT |= {"peak_force_time": "s", "peak_force_place": "m", "peak_force_sharp": "N"}
-OF_HIT = {"begin": "s", "end": "s", "place": "m", "impulse": "N s", "energy": "J", "lost": "J"}
+OF_HIT = {"begin": "s", "end": "s", "place": "m", "impulse": "N s", "energy": "J", "lost": "J", "moment": "N m"}
 OF_HIT |= dict.fromkeys(("before", "after"), "m/s")
 BASES = [EXACT]
 if FUZZ:
