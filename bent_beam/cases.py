@@ -253,7 +253,7 @@ def read_toml(path: Path, what: str) -> dict[str, Any]:
         return tomllib.loads(data.decode("utf-8"))
     except (ValueError, RecursionError) as error:  # no UTF-8, no TOML, a number of too many digits, nesting without end
         why = " ".join(str(error).split())
-        at = re.search(r"at line (\d+)", why)
+        at = re.search(r"\(at line (\d+), column \d+\)$", why)
         line = data.split(b"\n")[int(at[1]) - 1] if at else b""
         hint = "; numbers take a decimal point, no comma" if re.search(rb"=[^#\"'\[]*\d,\d", line) else ""
         raise InputError(f"{what} {path} is not valid TOML: {why}{hint}") from None

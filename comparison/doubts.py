@@ -58,7 +58,7 @@ def doubts(impact: Impact, section: Section | None) -> list[str]:
     critical = 2.0 * math.sqrt((impact.wall_stiffness or 0.0) * impact.mass_per_length)
     if begin < end and impact.wall_damping > critical and not _has_no_size(impact):
         ratio = impact.wall_damping / critical
-        found.append(f"the wall's damping ratio is {ratio:.3g}, beyond critical: is it meant in percent?")
+        found.append(f"the wall's damping ratio is {ratio:.3g}, beyond critical (a ratio is not in percent)")
     sunk = impact.velocity * math.sqrt(impact.mass_per_length / (impact.wall_stiffness or math.inf))  # of a stiff beam
     if begin < end and sunk > impact.half_length and not _has_no_size(impact):
         found.append(
@@ -101,11 +101,10 @@ def _of_section(impact: Impact, section: Section) -> list[str]:
     strain = section.stress(0.0, impact.axial_force) / section.youngs_modulus
     if not found and strain > STRETCHED:
         found.append(f"beam.axial_force = {impact.axial_force:g} N strains the section by {strain:.2g}: is it in N?")
-    if section.added_mass and impact.net_load:
+    if section.added_mass and impact.acceleration:
         found.append(
-            f"gravity, or an acceleration, acts on all of the mass, section.added_mass = {section.added_mass:g} kg/m "
-            "included, and nothing takes buoyancy off: of a beam in a fluid give impact.gravity as g times the "
-            "submerged weight over the weight of all of the mass"
+            f"all of the mass weighs, section.added_mass = {section.added_mass:g} kg/m included, and no buoyancy is "
+            "taken off (a gravity that does so: docs/guide/problems.md, a beam in a fluid)"
         )
     return found
 

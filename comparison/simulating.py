@@ -60,7 +60,7 @@ class Simulated:
         if until is None:
             largest, unit = reading["whole"], scales(impact)
         several = impact.opposite_wall is not None or impact.off_centre  # between two walls, or of a beam that rocks
-        listed = hits(history) if several or impact.net_load > 0.0 else []
+        listed = hits(history) if several or impact.supported or impact.net_load > 0.0 else []
         return {
             "path": history.path,
             "model": impact.model,

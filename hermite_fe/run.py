@@ -250,7 +250,8 @@ def integrate(
             said, left = True, spent * (float(kept[-1]) / float(step) - 1.0)
             if left > LONG:
                 how, log = "about" if until is None else "up to", logging.getLogger("bent_beam")
-                log.warning("%s %.2g minutes more: %d steps of %d nodes", how, left / 60.0, kept[-1], system.dofs // 2)
+                steps, nodes = int(kept[-1]) - int(step), system.dofs // 2
+                log.warning("%s %.2g minutes more: %d steps of %d nodes", how, left / 60.0, steps, nodes)
         if until is not None and until(run):
             break
     if not failure and run.energy() > UNSTABLE * (start + worked) > 0.0:

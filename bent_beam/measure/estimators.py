@@ -207,11 +207,11 @@ def first_order(
     epsilon, tail = runs[-1]
     late = tail.tau >= tail.tau[-1] / window
     reaction = tail.pressure[late] / epsilon
+    lacks = reaction - (reaction.mean() if pressure is None else max(pressure, 0.0))
     if (pressure or 0.0) < 0.0:
-        reaction = HITS_FIRST * (reaction - base.pressure[late] / epsilon)
-    wanted = float(reaction.mean()) if pressure is None else max(pressure, 0.0)
+        lacks = HITS_FIRST * (reaction - base.pressure[late] / epsilon)
     stuck = STUCK_FIRST * max(-(pressure or 0.0), 0.0) * (tail.lift[late] == 0.0)
-    missing = math.sqrt(float(np.mean((np.abs(reaction - wanted) + stuck) ** 2))) * lambda0 / SIDE
+    missing = math.sqrt(float(np.mean((np.abs(lacks) + stuck) ** 2))) * lambda0 / SIDE
     inherited = (abs(best[0]) * leading.lambda0.spread + abs(best[1]) * leading.r0.spread) / r0
     known = {
         "spread": FACTOR * np.abs(changes).max(axis=0),

@@ -247,7 +247,7 @@ class Hit:
 
     before, after : velocities of the centre of mass, m/s, positive towards the front wall; energy : kinetic, strain and
     in springs of the wall after it, J; lost : what the energy and the work of the loads fell by meanwhile, J; moment :
-    the largest from its begin to that of the next, N m (``None`` where the steps' moments are not kept).
+    the largest from its begin to that of the next, or its end, N m (``None`` where the steps' are not kept).
     """
 
     wall: str
@@ -276,8 +276,8 @@ def hits(history: ImpactHistory) -> list[Hit]:
     work = history.energy("work_of_loads")
     energy = history.array("kinetic_energy") + history.array("strain_energy") - work + history.energy("contact_energy")
     groups = list(_grouped(sorted(parts), impact, time))
-    begins, found = [group[0][0] for group in groups] + [time.size - 1], []
-    for group, until in zip(groups, begins[1:]):
+    found, last = [], time.size - 1
+    for group, later in zip(groups, [*(group[0][0] for group in groups[1:]), last]):
         i, k, wall = group[0][0], group[-1][1], group[0][2]
         given = rows[wall][k] - rows[wall][i]
         size = np.abs(given)
@@ -285,6 +285,7 @@ def hits(history: ImpactHistory) -> list[Hit]:
         end = 0.5 * float(time[k - 1] + time[k])
         before, after = _velocity(history, i, float(time[i])), _velocity(history, k, end)
         has, lost, pushed = float(energy[k] + work[k]), float(energy[i] - energy[k]), float(given.sum())
-        moment = peak_moment(history, float(time[until]), since=i).moment if "largest_moment" in history else None
+        until = float(time[max(later, k)])  # of two walls one may push while the other does
+        moment = peak_moment(history, until, since=i).moment if "largest_moment" in history else None
         found.append(Hit(wall, float(time[i]), end, place, pushed, before, after, has, lost, moment))
     return found

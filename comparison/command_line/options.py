@@ -147,8 +147,8 @@ def check_out(out: Path | None, overwrite: bool, suffix: str = "") -> None:
 
     if out is None and overwrite:
         raise InputError("--overwrite has no effect without --out: leave it out")
-    if out is not None and suffix and out.suffix not in ("", suffix):
-        raise InputError(f"--out must end in {suffix}, as that is what the file is (got {out})")
+    if out is not None and suffix and out.suffix[1:].isalpha() and out.suffix.lower() != suffix:
+        raise InputError(f"--out must not end in {out.suffix}: the file is a {suffix} (got {out})")
     if out is not None and out.exists() and not overwrite:
         raise InputError(f"{out} exists already (give another name, or --overwrite)")
     check_writable(out, folder=False)

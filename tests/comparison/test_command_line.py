@@ -82,7 +82,7 @@ def test_a_match_whose_rows_are_all_refused_is_bad_input_and_still_a_document(ca
         # what would have no effect
         (["simulate", K10, "--set", "exudyn={refine=2.0}"], "has no effect: the path is hermite"),
         (["problem", "leading-0.5", "--overwrite"], "without --out"),
-        (["simulate", K10, "--out", "run.csv"], "--out must end in .nc, as that is what the file is (got run.csv)"),
+        (["simulate", K10, "--out", "run.csv"], "--out must not end in .csv: the file is a .nc (got run.csv)"),
         (["predict", K10, "--theory-only", "--set", "impact.rotation=5"], "bentbeam bounce follows the full beam"),
         (["simulate", K10, "--until", "separation", "--set", "run.end_time=1"], "--until separation says how long"),
         (["bounce", K10, "--set", "self_similar.refine=2"], "the path is hermite"),

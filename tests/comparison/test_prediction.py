@@ -147,7 +147,7 @@ def test_a_gate_that_touches_all_at_once_mistaken_units_and_a_hole_that_bends_on
     assert "speed of sound of 5.12 m/s" in said(youngs_modulus=206e3) and "1.62e+05 m/s" in said(density=7.85)
     assert said(youngs_modulus=1e6, density=1100.0) == said(youngs_modulus=1.2e12, density=3510.0) == ""
     assert "strains the section by 0.17: is it in N?" in said(axial_force=1e8)
-    assert "nothing takes buoyancy off" in said(added_mass=8.0, gravity=9.81)
+    assert "no buoyancy is taken off" in said(added_mass=8.0, gravity=9.81)
     assert said(gravity=9.81, fluid_density=1e3) == said(added_mass=8.0) == ""
     hole = Impact.whole_beam(0.5).replace(opposite_wall=0.3, wall_curvature=0.1)
     percent = Impact(2.0, 1.0, 2.0, 0.1, 1.0, damping=1.0 / (np.pi * first_mode(Impact(2.0, 1.0, 2.0, 0.1, 1.0))))

@@ -1,11 +1,14 @@
 """Momentum, initial energy and gaps of pushes, from the state of a run: a falsified run shows."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from histories import history_of
 
 from bent_beam import Impact, ImpactHistory
 from bent_beam.measure.balance import balance_of
+from bent_beam.measure.limits import limited_as
 from bent_beam.measure.reduction import peak_moment
 from bent_beam.meshes import UniformMesh
 from exudyn_models import ExudynModel
@@ -28,6 +31,8 @@ def test_a_run_keeps_its_momentum_and_a_falsified_impulse_energy_or_gap_shows_in
     more = balance_of(ImpactHistory.of(data.assign(total_impulse=1.1 * data["total_impulse"])))
     assert more.momentum == pytest.approx(1.0 / 11.0, abs=1e-3) and more.points == pytest.approx(-1.0 / 11.0)
     assert "impulse" in more.warnings[0]
+    second = data.assign(opposite_impulse=0.1 * data["impulse"], total_impulse=0.9 * data["total_impulse"])
+    assert balance_of(ImpactHistory.of(second)).points == pytest.approx(0.0, abs=1e-9)
     less = balance_of(ImpactHistory.of(data.assign(kinetic_energy=0.97 * data["kinetic_energy"])))
     assert less.initial_energy == pytest.approx(-0.03, abs=1e-9) and "mass is missing" in less.warnings[0]
     assert balance_of(ImpactHistory.of(data.assign(gap=data["gap"] + 0.01))).gap_of_push > 0.03
@@ -151,3 +156,18 @@ FAR = Impact.dimensionless(0.5, length=1000.0)
 )
 def test_a_sound_run_has_nothing_to_warn_of(method, impact, end) -> None:
     assert balance_of(method.simulate(impact, end_time=end, save=100)).warnings == []
+
+
+@pytest.mark.parametrize(
+    ("kind", "radius", "force", "limits"),
+    [
+        ("Newmark", 0.5, 0.0, "exudyn"),
+        ("Newmark", 0.5, 1.0, "exudyn, axial force"),
+        ("RK44", 0.5, 1.0, "exudyn, explicit or ρ∞ > ½"),
+        ("GeneralizedAlpha", 0.8, 1.0, "exudyn, explicit or ρ∞ > ½"),
+    ],
+)
+def test_a_run_by_exudyn_has_the_limits_of_its_integrator_and_load(kind, radius, force, limits) -> None:
+    settings = {"integrator": {"kind": kind, "spectral_radius": radius}}
+    history = SimpleNamespace(path="exudyn", settings=settings, impact=WHOLE.replace(axial_force=force))
+    assert limited_as(history) == limits

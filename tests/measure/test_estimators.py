@@ -9,7 +9,15 @@ import pytest
 from histories import history_of
 
 from bent_beam import Impact, ImpactHistory
-from bent_beam.measure.estimators import INSIDE, SIDE, LeadingEstimate, first_order, leading_order
+from bent_beam.measure.estimators import (
+    HITS_FIRST,
+    INSIDE,
+    MISSING_FIRST,
+    SIDE,
+    LeadingEstimate,
+    first_order,
+    leading_order,
+)
 from bent_beam.measure.moments import Moments, first_front, local_front, moments, one_side
 from bent_beam.measure.numbers import FACTOR, Number
 from bent_beam.measure.reduction import peak_moment
@@ -188,6 +196,10 @@ def test_a_zone_that_should_lift_and_does_not_widens_the_error_bars():
     pushes = [(e, dataclasses.replace(run, pressure=run.pressure + 0.5 * e)) for e, run in runs]
     on_springs = first_order(pushes, base, leading, pressure=-1.0)  # what pushes on adds to what should have lifted
     assert on_springs.r1.bar > stuck.r1.bar + 0.5 * whole
+    rattling = dataclasses.replace(base, pressure=base.pressure + 0.05)  # by half a load, which is not there with it
+    off = first_order(lifted, rattling, leading, pressure=-1.0)
+    assert off.r1.parts["uniform_reaction"] == pytest.approx(MISSING_FIRST * HITS_FIRST * 0.5 * whole, rel=0.02)
+    assert off.uniform_reaction == free.uniform_reaction
 
 
 @pytest.mark.parametrize("with_slope", [True, False])

@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+from itertools import pairwise
 from types import SimpleNamespace
 from typing import Any
 
@@ -266,6 +267,17 @@ def test_each_hit_between_two_walls_gives_the_beam_its_impulse(path, asked, leas
     if path is HermiteFE:
         gap = history.array("gap")
         assert (gap.min(), gap.max()) == pytest.approx((0.0, history.impact.opposite_wall), abs=5e-3)
+
+
+def test_of_hits_that_overlap_each_has_the_largest_moment_of_its_own_time() -> None:
+    impact = Impact.whole_beam(0.5, relative_damping=1e-2).replace(opposite_wall=0.26, wall_stiffness=20.0)
+    history = HermiteFE(mesh=UniformMesh(0.1)).for_whole_beam(impact).simulate(impact, end_time=4.0, save=400)
+    found = hits(history)
+    assert any(one.end > other.begin for one, other in pairwise(found))
+    for hit, until in zip(found, [*(hit.begin for hit in found[1:]), 4.0]):
+        within = (history.time > hit.begin) & (history.time <= max(hit.end, until))
+        assert hit.moment == pytest.approx(history.moment[within].max(), rel=0.02)  # the last is cut at its middle
+    assert found[0].moment < 0.7 * peak_moment(history).moment
 
 
 @slow

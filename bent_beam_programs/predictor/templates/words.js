@@ -63,7 +63,7 @@ const Words = (() => {
       [b.length < DOUBTS.stubby * b.gyration, `The beam is only ${text(b.length / b.gyration, 2)} radii of gyration long.`],
       [unreal, `A speed of sound of ${text(b.sound, 3)} m/s, √(E/ρ), is no material’s: look at modulus and density.`],
       [!unreal && b.strain > DOUBTS.stretched, `The axial force strains the section by ${text(b.strain, 2)}: look at its unit.`],
-      [b.weightAdded, "Gravity acts on the added mass, too, without buoyancy: in a fluid give it times the submerged weight over that of all."],
+      [b.weightAdded, "The added mass weighs, too, and no buoyancy is taken off: in a fluid give gravity times the submerged weight over that of all."],
     ];
     return said.filter(([is]) => is).map(([, sentence]) => sentence);
   }
