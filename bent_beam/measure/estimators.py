@@ -35,6 +35,8 @@ LIFTED = 0.1  # of V₀t: a larger lift counts whole, a smaller one in proportio
 INSIDE = 0.5  # of what the lift does to r₀, to λ₀: pushes off the zone act anywhere behind the front
 STUCK_FIRST = 0.4  # likewise of a load that should lift the zone and does not: springs push on, or no node is there
 LIFTED_FIRST = 2.0  # of what the lift does to r₀ and λ₀: a load moves the front of a lifted zone differently
+LIFTED_MORE, UNDER_LIFT = 0.01, 10.0  # of V₀t, from which a load that lifts a thrown-off zone is answered otherwise: so
+# many times what it is above; velocity-level laws at κ/ν = 0.055 and 0.075 lift it by 0.03, and r₁ is 40 and 23 % off
 HITS_FIRST = 3.0  # times what a load that lifts the zone changes of hits inside it: they also act closer to the front
 MISSING_FIRST = 2.5  # of the zone's length times what its uniform reaction lacks: a zone off the wall moves the front
 
@@ -178,7 +180,8 @@ def first_order(
     - the largest difference from a companion;
     - ``MISSING_FIRST`` times what the uniform reaction lacks. That moves r₁ by λ₀/√(2/π) of itself at least, and λ₁ by
       about half of that times λ₀/r₀. A zone that should lift and does not lacks ``STUCK_FIRST`` of the load;
-    - ``LIFTED_FIRST`` times the shares of :func:`lift_shares`;
+    - ``LIFTED_FIRST`` times the shares of :func:`lift_shares`, under a load that lifts the zone with ``UNDER_LIFT`` of
+      what the lift is above ``LIFTED_MORE``; and ``HITS_FIRST`` times what such a load changes of hits inside the zone;
     - what λ₁ inherits from the bars of λ₀ and r₀; and ``FLOOR``.
 
     Raises ``ValueError`` without runs or when saved times differ.
@@ -210,13 +213,14 @@ def first_order(
     lacks = reaction - (reaction.mean() if pressure is None else max(pressure, 0.0))
     if (pressure or 0.0) < 0.0:
         lacks = HITS_FIRST * (reaction - base.pressure[late] / epsilon)
+    under_lift = UNDER_LIFT * max(leading.lift - LIFTED_MORE, 0.0) if (pressure or 0.0) < 0.0 else 0.0
     stuck = STUCK_FIRST * max(-(pressure or 0.0), 0.0) * (tail.lift[late] == 0.0)
     missing = math.sqrt(float(np.mean((np.abs(lacks) + stuck) ** 2))) * lambda0 / SIDE
     inherited = (abs(best[0]) * leading.lambda0.spread + abs(best[1]) * leading.r0.spread) / r0
     known = {
         "spread": FACTOR * np.abs(changes).max(axis=0),
         "uniform_reaction": MISSING_FIRST * missing * np.array([1.0, 0.5 * lambda0 / r0]),
-        "lift": LIFTED_FIRST * np.array(lift_shares(leading.lift)) * np.abs(best),
+        "lift": (LIFTED_FIRST * np.array(lift_shares(leading.lift)) + under_lift) * np.abs(best),
         "leading_order": np.array([0.0, inherited]),
         "least": np.full(2, FLOOR * np.abs(best).max()),
     }

@@ -200,6 +200,10 @@ def test_a_zone_that_should_lift_and_does_not_widens_the_error_bars():
     off = first_order(lifted, rattling, leading, pressure=-1.0)
     assert off.r1.parts["uniform_reaction"] == pytest.approx(MISSING_FIRST * HITS_FIRST * 0.5 * whole, rel=0.02)
     assert off.uniform_reaction == free.uniform_reaction
+    thrown = dataclasses.replace(leading, lift=0.03)
+    for pressure, more in ((-1.0, 0.2), (1.0, 0.0)):
+        low, high = (first_order(lifted, base, one, pressure=pressure).r1.parts["lift"] for one in (leading, thrown))
+        assert high - low == pytest.approx((2.0 * 0.3 * 0.03 + more) * abs(free.r1.known), rel=1e-3)
 
 
 @pytest.mark.parametrize("with_slope", [True, False])
