@@ -129,6 +129,13 @@ def test_a_run_that_drifts_within_its_window_has_a_bar_for_it():
     assert drifting.parts["drift"] > 20.0 * steady.parts["drift"]
 
 
+def test_leading_order_is_the_same_whenever_the_run_ends():
+    run = moments(synthetic(0.5))
+    early = dataclasses.replace(run, tau=1e-6 * run.tau, impulse=1e-3 * run.impulse, moment=1e-6 * run.moment)
+    one, other = leading_order(run), leading_order(early)
+    assert (one.r0.known, one.lambda0.known) == pytest.approx((other.r0.known, other.lambda0.known), rel=1e-9)
+
+
 @pytest.mark.parametrize("first", [(4.0, 0.0, 0.0), (1.0, 1.0, 1.0), (-1.0, -1.0, 0.0), (0.0, 0.0, 1.0)])
 def test_first_order_is_recovered_with_and_without_uniform_reaction(first):
     exact = contact_parameters(0.5, *first)

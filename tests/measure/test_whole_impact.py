@@ -180,6 +180,9 @@ def test_a_moment_counts_once_a_wave_has_passed_ten_of_the_shortest_elements() -
         found = whole_impact(recorded(time, impulse, x=x, impact=impact, **moments))
         assert found.peak_moment == pytest.approx(high if counts else 0.4)
         assert found.moment_left_out == pytest.approx(min(high, 1.0) if damping and not counts else 0.0)
+    few, moment = [0, 2000, 4000], np.array([0.0, 0.9, 0.4])  # saved: the first of them hides no maximum
+    moments = {"largest_moment": moment, "largest_moment_place": 0.0 * moment, "largest_midspan_moment": moment}
+    assert peak_moment(recorded(time[few], impulse[few], x=x, impact=impact, **moments)).moment == 0.9
 
 
 def test_a_beam_that_has_left_does_not_return_and_one_that_swings_as_wide_as_it_is_away_may() -> None:

@@ -287,3 +287,14 @@ def test_tension_and_a_curved_wall_act_through_the_groups() -> None:
     # held still by the load p = NK the zone bears it
     held = predict(PIPE.replace(axial_force=force), [0.05]).times[0]
     assert held.contact_force_per_length == pytest.approx(force * PIPE.curvature, rel=1e-13)
+
+
+@pytest.mark.parametrize(("kappa", "quartic", "times"), [(0.05, 0.01, 2.0), (0.2, 0.01, 2.0), (0.2, 1e-4, 1.0)])
+def test_the_theory_ends_ten_lengths_of_bending_before_the_end_of_the_beam_twice_as_many_under_q0(
+    kappa, quartic, times
+):
+    impact = Impact.dimensionless(kappa, length=10.0).replace(fourth_derivative=quartic)
+    found = predict(impact, [1e-3])
+    spread = math.sqrt(found.valid_until / impact.slow_time_scale)  # √(ct)/ℓ
+    left = 1.0 - float(contact_parameters(kappa).lambda0) * spread
+    assert left == pytest.approx(10.0 * times * spread, rel=1e-9) and "ends" in found.limited_by
