@@ -101,7 +101,7 @@ def _of_section(impact: Impact, section: Section) -> list[str]:
     strain = section.stress(0.0, impact.axial_force) / section.youngs_modulus
     if not found and strain > STRETCHED:
         found.append(f"beam.axial_force = {impact.axial_force:g} N strains the section by {strain:.2g}: is it in N?")
-    if section.added_mass and impact.acceleration:
+    if section.added_mass and impact.acceleration and impact.uniform_pressure:  # an axial force on a bow has a₀, too
         found.append(
             f"all of the mass weighs, section.added_mass = {section.added_mass:g} kg/m included, and no buoyancy is "
             "taken off (a gravity that does so: docs/guide/problems.md, a beam in a fluid)"

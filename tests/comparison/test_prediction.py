@@ -132,7 +132,7 @@ def test_a_gate_that_touches_all_at_once_mistaken_units_and_a_hole_that_bends_on
     assert gate.off_centre and "its rebound is that of the contact law" in doubts(gate, None)[0]
     assert doubts(gate.replace(wall_stiffness=1e3), None) == []
     steel = {"wall_thickness": 0.01, "youngs_modulus": 206e9, "density": 7850.0}
-    beam = {"beam": {"length": 3.0, "curvature": 0.01}, "impact": {"velocity": 1.0}}
+    beam: dict[str, dict[str, Any]] = {"beam": {"length": 3.0, "curvature": 0.01}, "impact": {"velocity": 1.0}}
 
     def said(**change: float) -> str:
         force, falls = ({name: change.pop(name, 0.0)} for name in ("axial_force", "gravity"))
@@ -149,6 +149,10 @@ def test_a_gate_that_touches_all_at_once_mistaken_units_and_a_hole_that_bends_on
     assert "strains the section by 0.17: is it in N?" in said(axial_force=1e8)
     assert "no buoyancy is taken off" in said(added_mass=8.0, gravity=9.81)
     assert said(gravity=9.81, fluid_density=1e3) == said(added_mass=8.0) == ""
+    assert "buoyancy" not in said(added_mass=8.0, axial_force=5e3), "a tension weighs nothing"
+    beam["beam"]["tension_direction"] = "tangent"
+    assert "buoyancy" not in said(added_mass=8.0, axial_force=5e3)
+    assert "buoyancy" in said(added_mass=8.0, axial_force=5e3, gravity=9.81)
     hole = Impact.whole_beam(0.5).replace(opposite_wall=0.3, wall_curvature=0.1)
     percent = Impact(2.0, 1.0, 2.0, 0.1, 1.0, damping=1.0 / (np.pi * first_mode(Impact(2.0, 1.0, 2.0, 0.1, 1.0))))
     assert "is it meant in percent?" in doubts(percent, None)[0]
