@@ -34,7 +34,7 @@ LAST = 0.5  # of the run that is looked at: earlier, the start is not resolved
 class Balance:
     """momentum, second_moment : largest residual of the equations above in the second half of the run, over the
     largest |J| and Σ x_i² J_i (second_moment less what missing momentum at the ends would explain); points : the
-    impulses of the contact points, added up, less J, over the largest |J|, at the end, those of the contact law
+    impulses of the contact points, added up, less J, over the largest |J|, at the end, or those of the contact law
     where J is what the momentum lacks; initial_energy : (recorded − ½μLV₀²)/½μLV₀² at t = 0, where the beam arrives
     with one velocity; gap_of_push : largest gap at the end of an interval in which a contact point pushed, over V₀t, in
     the second half of the run.
@@ -207,10 +207,10 @@ def _points(history: ImpactHistory) -> float | None:
     total, places = history.array("total_impulse"), [history.array("impulse", -1)]
     if "opposite_impulse" in history:
         places.append(-history.array("opposite_impulse", -1))
-    found, whole = float(np.concatenate(places).sum()) * 2.0 / history.sides, float(np.abs(total).max())
+    found, whole = [float(np.concatenate(places).sum()) * 2.0 / history.sides], float(np.abs(total).max())
     if "law_impulse" in history:  # there the points share the total
-        found = float(history.array("law_impulse")[-1])
-    return (found - float(total[-1])) / whole if whole > 0.0 else None
+        found.append(float(history.array("law_impulse")[-1]))
+    return max((one - float(total[-1]) for one in found), key=abs) / whole if whole > 0.0 else None
 
 
 def _is_whole(history: ImpactHistory) -> bool:
