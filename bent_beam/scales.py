@@ -142,6 +142,12 @@ class Scales(Part):
         """g = J κ_sGA/(EI μ), dimensionless: the square of shear waves' speed over that of bending waves' fastest."""
         return self.rotary_inertia / self.mass_per_length / self.shear_length**2 if self.shear_length else 0.0
 
+    @property
+    def wall_damping_ratio(self) -> float:
+        """ζ = c/(2√(kμ)) of a wall that gives way; 0 of a rigid one."""
+        stiffness = self.wall_stiffness or math.inf
+        return self.wall_damping / (2.0 * math.sqrt(stiffness * self.mass_per_length))
+
     def free_motion(self, bow: float) -> FreeMotion:
         """y₀ with −``bow`` x²/2 in place of −Kx²/2, SI units, x from the first touch."""
         terms = {about.powers: getattr(self, load) for load, about in loads_of(type(self)).items() if about.powers}

@@ -55,9 +55,8 @@ def doubts(impact: Impact, section: Section | None) -> list[str]:
     if ratio >= OVERDAMPED and not _has_no_size(impact):
         found.append(f"the material damps the first mode with a ratio of {ratio:.2g}: is it meant in percent?")
     begin, end = impact.wall_span
-    critical = 2.0 * math.sqrt((impact.wall_stiffness or 0.0) * impact.mass_per_length)
-    if begin < end and impact.wall_damping > critical and not _has_no_size(impact):
-        ratio = impact.wall_damping / critical
+    ratio = impact.wall_damping_ratio
+    if begin < end and ratio > 1.0 and not _has_no_size(impact):
         found.append(f"the wall's damping ratio is {ratio:.3g}, beyond critical (a ratio is not in percent)")
     sunk = impact.velocity * math.sqrt(impact.mass_per_length / (impact.wall_stiffness or math.inf))  # of a stiff beam
     if begin < end and sunk > impact.half_length and not _has_no_size(impact):

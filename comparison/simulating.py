@@ -94,6 +94,7 @@ class Simulated:
             "momentum_residual": balance.momentum,
             "second_moment_residual": balance.second_moment,
             "contact_points_residual": balance.points,
+            "contact_law_residual": balance.law,
             "initial_energy_residual": balance.initial_energy,
             **{name: getattr(balance, name) for name in ("gap_of_push", "penetration", "middle_slope")},
             "hits": [asdict(hit) for hit in listed] if several or len(listed) > 1 else None,

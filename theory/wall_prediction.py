@@ -84,8 +84,7 @@ def on_elastic_wall(impact: Impact, solved: ContactParameters) -> WallPrediction
     scales = wall_scales(impact)
     if scales is None or impact.wall_stiffness is None:
         return None
-    ratio = float(solved.kappa_over_nu)
-    damping = impact.wall_damping / (2.0 * math.sqrt(impact.wall_stiffness * impact.mass_per_length))
+    ratio, damping = float(solved.kappa_over_nu), impact.wall_damping_ratio
     largest: dict[str, Any] = {}
     if FLATTEST <= ratio <= SHARPEST and damping <= MOST_DAMPED:
         found, deep = peak_force(ratio, damping), impact.velocity * scales.time

@@ -34,10 +34,10 @@ LAST = 0.5  # of the run that is looked at: earlier, the start is not resolved
 class Balance:
     """momentum, second_moment : largest residual of the equations above in the second half of the run, over the
     largest |J| and Σ x_i² J_i (second_moment less what missing momentum at the ends would explain); points : the
-    impulses of the contact points, added up, less J, over the largest |J|, at the end, or those of the contact law
-    where J is what the momentum lacks; initial_energy : (recorded − ½μLV₀²)/½μLV₀² at t = 0, where the beam arrives
-    with one velocity; gap_of_push : largest gap at the end of an interval in which a contact point pushed, over V₀t, in
-    the second half of the run.
+    impulses of the contact points, added up, less J, over the largest |J|, at the end; law : likewise that of the
+    contact law, where J is what the momentum lacks and is shared among the points; initial_energy : (recorded −
+    ½μLV₀²)/½μLV₀² at t = 0, where the beam arrives with one velocity; gap_of_push : largest gap at the end of an
+    interval in which a contact point pushed, over V₀t, in the second half of the run.
 
     penetration : deepest node in a rigid wall, over V₀t; pull : most impulse that a contact point, not held, took back
     between two saved instants, over the most that one gave; both in the second half of the run. energy : most that the
@@ -49,6 +49,7 @@ class Balance:
     momentum: float | None
     second_moment: float | None
     points: float | None
+    law: float | None
     initial_energy: float | None
     gap_of_push: float | None
     penetration: float | None
@@ -70,6 +71,7 @@ def balance_of(history: ImpactHistory) -> Balance:
         _residual(min(missing, key=_largest_late), history.array("total_impulse")) if missing else None,
         _second_moment(history, missing[0]) if missing else None,
         _points(history),
+        _law(history),
         _initial_energy(history),
         _gap_of_push(history),
         _penetration(history),
@@ -203,14 +205,21 @@ def _of_fast_part(history: ImpactHistory) -> Array:
 
 
 def _points(history: ImpactHistory) -> float | None:
-    """``None`` without an impulse."""
-    total, places = history.array("total_impulse"), [history.array("impulse", -1)]
+    found = float(history.array("impulse", -1).sum())
     if "opposite_impulse" in history:
-        places.append(-history.array("opposite_impulse", -1))
-    found, whole = [float(np.concatenate(places).sum()) * 2.0 / history.sides], float(np.abs(total).max())
-    if "law_impulse" in history:  # there the points share the total
-        found.append(float(history.array("law_impulse")[-1]))
-    return max((one - float(total[-1]) for one in found), key=abs) / whole if whole > 0.0 else None
+        found -= float(history.array("opposite_impulse", -1).sum())
+    return _beyond_total(history, 2.0 / history.sides * found)
+
+
+def _law(history: ImpactHistory) -> float | None:
+    return _beyond_total(history, float(history.array("law_impulse")[-1])) if "law_impulse" in history else None
+
+
+def _beyond_total(history: ImpactHistory, found: float) -> float | None:
+    """An impulse, N s, less J at the end, over the largest |J|; ``None`` without an impulse."""
+    total = history.array("total_impulse")
+    most = float(np.abs(total).max())
+    return (found - float(total[-1])) / most if most > 0.0 else None
 
 
 def _is_whole(history: ImpactHistory) -> bool:

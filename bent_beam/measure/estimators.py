@@ -19,6 +19,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bent_beam.history import Array
 from bent_beam.measure.moments import Moments
@@ -209,13 +210,10 @@ def first_order(
     changes += [(solve([i], 2, window) - best) * runs[i][0] / largest for i in every if len(rows) > 1]
     epsilon, tail = runs[-1]
     late = tail.tau >= tail.tau[-1] / window
-    reaction = tail.pressure[late] / epsilon
-    lacks = reaction - (reaction.mean() if pressure is None else max(pressure, 0.0))
-    if (pressure or 0.0) < 0.0:
-        lacks = HITS_FIRST * (reaction - base.pressure[late] / epsilon)
+    reaction, hits = tail.pressure[late] / epsilon, base.pressure[late] / epsilon
+    lacks = _lacking(reaction, hits, pressure, tail.lift[late] == 0.0)
+    missing = math.sqrt(float(np.mean(lacks**2))) * lambda0 / SIDE
     under_lift = UNDER_LIFT * max(leading.lift - LIFTED_MORE, 0.0) if (pressure or 0.0) < 0.0 else 0.0
-    stuck = STUCK_FIRST * max(-(pressure or 0.0), 0.0) * (tail.lift[late] == 0.0)
-    missing = math.sqrt(float(np.mean((np.abs(lacks) + stuck) ** 2))) * lambda0 / SIDE
     inherited = (abs(best[0]) * leading.lambda0.spread + abs(best[1]) * leading.r0.spread) / r0
     known = {
         "spread": FACTOR * np.abs(changes).max(axis=0),
@@ -226,10 +224,17 @@ def first_order(
     }
     r1, lambda1 = _numbers(best, [np.array([c.r1.known, c.lambda1.known]) for c in companions], known)
     fitted = float(tail.tau[late][0]), float(tail.tau[-1])
-    epsilons = tuple(row[0] for row in rows)
-    return FirstOrderEstimate(
-        lambda1=lambda1, r1=r1, uniform_reaction=float(reaction.mean()), epsilons=epsilons, window=fitted
-    )
+    return FirstOrderEstimate(lambda1, r1, float(reaction.mean()), tuple(row[0] for row in rows), fitted)
+
+
+def _lacking(reaction: Array, hits: Array, pressure: float | None, stuck: NDArray[np.bool_]) -> Array:
+    """What a zone's uniform reaction, over ε, is off by. pressure : of :func:`first_order`; hits : the reaction of the
+    run at ε = 0; stuck : where the zone lies on the wall."""
+    if pressure is None:
+        return np.abs(reaction - reaction.mean())
+    if pressure >= 0.0:
+        return np.abs(reaction - pressure)
+    return HITS_FIRST * np.abs(reaction - hits) - STUCK_FIRST * pressure * stuck
 
 
 def _coefficient(rows: Sequence[tuple[float, Array, Array]], power: float, degree: int, start: float) -> float:

@@ -275,7 +275,7 @@ def hits(history: ImpactHistory) -> list[Hit]:
     parts = [(i, k, wall) for wall, given in rows.items() for i, k in pushes(time, given.sum(axis=1), 0.0)]
     work = history.energy("work_of_loads")
     energy = history.array("kinetic_energy") + history.array("strain_energy") - work + history.energy("contact_energy")
-    groups = list(_grouped(sorted(parts), impact, time))
+    groups = _grouped(sorted(parts), impact, time)
     found, last = [], time.size - 1
     for group, later in zip(groups, [*(group[0][0] for group in groups[1:]), last]):
         i, k, wall = group[0][0], group[-1][1], group[0][2]
