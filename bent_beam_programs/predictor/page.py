@@ -16,10 +16,10 @@ from bent_beam.files import write_atomically
 from bent_beam.hysteresis import FIRST_MODE, SOFT
 from bent_beam.measure.numbers import FACTOR
 from bent_beam.measure.reduction import OF_BEAM
-from bent_beam.measure.whole_impact import SHORTEST_SEPARATION
+from bent_beam.measure.whole_impact import SHORTEST_SEPARATION, WINDOW
 from bent_beam.method import LONGEST, LONGEST_OF_WALL, ON_WALL
 from bent_beam_programs.predictor.coefficients import coefficients
-from comparison.bouncing import DAMPING_RATIOS, RETURNS
+from comparison.bouncing import ABOUT, DAMPING_RATIOS, RETURNS
 from comparison.doubts import LEAST_RESTITUTION, SOUND, STEEP, STRAIGHTENED, STRETCHED, STUBBY, WIDE
 from comparison.readable import BEAMS, BEFORE, LIMITS, REGIMES
 from comparison.runs import CHATTER, LEAST, LEAST_LIGHT, LIGHT
@@ -37,7 +37,7 @@ DOUBTS = {"wide": WIDE, "least_restitution": LEAST_RESTITUTION, "steep": STEEP, 
           "straightened": STRAIGHTENED, "sound": SOUND, "stretched": STRETCHED}  # fmt: skip
 """From when on ``bentbeam bounce`` warns."""
 BARS = {"factor": FACTOR, "least": LEAST, "light": LIGHT, "leastLight": LEAST_LIGHT, "chatter": CHATTER,
-        "returns": RETURNS, "ratios": DAMPING_RATIOS, "soft": SOFT}  # fmt: skip
+        "about": ABOUT, "window": WINDOW, "returns": RETURNS, "ratios": DAMPING_RATIOS, "soft": SOFT}  # fmt: skip
 """Of its error bars, the damping ratios that it takes where none is stated, and on which walls it takes none."""
 RUNS = {"elements": whole_beam.SHEARED_ELEMENTS, "step": whole_beam.SHEARED_STEP, "hard": whole_beam.HARD,
         "thick": whole_beam.THICK, "damped": whole_beam.DAMPED, "point": whole_beam.ONE_POINT,

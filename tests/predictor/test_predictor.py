@@ -17,7 +17,7 @@ from here import ROOT
 from bent_beam.cases import case_from_tables
 from bent_beam.errors import InputError
 from bent_beam.impact import Impact
-from bent_beam.measure.numbers import Number
+from bent_beam.measure.numbers import FACTOR, Number
 from bent_beam_programs.predictor.page import MODEL, SIMULATION, page, script
 from comparison.bouncing import bounce
 from comparison.whole_numbers import FINAL
@@ -289,6 +289,24 @@ def test_a_force_that_still_rises_when_the_page_gives_up_is_no_largest() -> None
     soft, softer = evaluated(largest, [0.05, 1e-4])
     assert soft[0] == soft[1] == pytest.approx(2.0 * math.sqrt(0.05), rel=0.05) and None not in soft
     assert softer[0] > 0.0 and softer[1] is None  # while other runs are missing, a first number has no bar
+
+
+@needs_node
+def test_maxima_that_agree_by_chance_have_a_bar_for_what_is_about_them() -> None:
+    """As in ``bounce``: two companions with the same largest moment, whose curves fall off more steeply; of a third the
+    largest is at another time."""
+    numbers = """given.map((time) => {
+        const p = {...Beam.problem(Beam.impact(Beam.START), 0.01)}, runs = {};
+        const of = (slope, steps, time) => ({
+            restitution: 0.5, impulse: 3, lastContact: 0.6, begin: 0.5, apart: 0.1, returns: [], late: {}, force: 0,
+            course: Array.from({length: steps}, (_, k) => 2 - slope * Math.abs(k / steps - 0.3)),
+            moment: 2, time, steps });
+        for (const name in Answer.runs(p)) runs[name] = name === "base" ? of(10, 1000, 0.3) : of(60, 500, time);
+        return Answer.numbers(p, runs).moment.bar; })"""
+    alike, elsewhere = evaluated(numbers, [0.3, 0.7])
+    changes = 50.0 * np.array([0.002, 0.001, 0.0, 0.001, 0.002])  # one step of the companions' lies between two
+    assert alike == pytest.approx(2.0 * FACTOR * math.sqrt(np.mean(changes**2)), rel=0.1)
+    assert elsewhere < 0.1 * alike
 
 
 @needs_node

@@ -1,7 +1,7 @@
 "use strict";
 // A whole impact as numbers with bars: which runs, and what they say together (bent_beam/measure/numbers.py).
 const Answer = (() => {
-  const { abs, max, min, round, sqrt } = Math;
+  const { abs, ceil, floor, max, min, round, sqrt } = Math;
   const { factor: FACTOR, ratios: RATIOS } = BARS; // of bentbeam bounce
   const DRAWN = [140, 92, 124, 80, 108, 132]; // elements of an ensemble; nodes rebound by 0, ½ and 1 of their velocity
   const NAMES = ["restitution", "impulse", "lastContact", "moment", "force"];
@@ -32,6 +32,19 @@ const Answer = (() => {
     }));
   }
 
+  /** What another run changes of the moment about the time of the largest, root of the mean square, beyond what it
+      changes of the largest (comparison/bouncing.py): maxima of curves that differ may agree by chance. */
+  function aboutItsTime({ course, steps, time, moment }, other) {
+    const changes = [], end = min((time + BARS.about) * steps, course.length - 1);
+    for (let k = max(ceil((time - BARS.about) * steps), 1); k <= end; k++) {
+      const place = k / steps * other.steps, i = floor(place), a = other.course[i], b = other.course[i + 1] ?? a;
+      if (abs(k / steps - other.time) > BARS.window) continue; // another moment is its largest
+      changes.push(a + (place - i) * (b - a) - course[k]);
+    }
+    const apart = changes.length ? Math.hypot(...changes) / sqrt(changes.length) : 0;
+    return max(apart - abs(other.moment - moment), 0);
+  }
+
   /** Numbers of finished runs: value and bar (null while companions are missing), or mean ± std of an ensemble. */
   function numbers(p, found) {
     const whole = Object.keys(runs(p)).every((name) => found[name]), { base, ...others } = found;
@@ -50,10 +63,11 @@ const Answer = (() => {
       const { elements, steps } = resolution(p), landing = p.wall ? p.wall.c / elements : 0; // all dashpots of a node
       const shift = ({ begin, apart }) => min(abs(begin - base.begin), apart, base.apart); // they end it together by chance
       const shifts = FACTOR * Object.values(others).reduce((sum, run) => sum + shift(run), 0);
+      const about = FACTOR * Object.values(others).reduce((sum, run) => sum + aboutItsTime(base, run), 0);
       const light = p.eta < BARS.light, chatter = light && p.kappa < 1 && !p.wall ? BARS.chatter * base.moment : 0;
       // A multiple of the bar of its velocity, which is found first, may bring the beam to the wall again.
       const again = base.returns.filter(([, speed]) => speed <= BARS.returns * slow).map(([t]) => t - base.lastContact);
-      const known = { lastContact: 0.5 / steps + shifts + max(0, ...again), force: landing, moment: chatter };
+      const known = { lastContact: 0.5 / steps + shifts + max(0, ...again), force: landing, moment: chatter + about };
       const sum = bar + (known[name] || 0), least = light ? BARS.leastLight : BARS.least;
       const number = { value: base[name], bar: sum && max(sum, least * abs(base[name])) };
       if (name === "restitution") slow = number.bar;

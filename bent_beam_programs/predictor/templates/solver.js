@@ -92,7 +92,7 @@ const Solver = (() => {
     const moment = new Float64Array(n), since = new Float64Array(n), scratch = new Float64Array(size);
     const found = { impulse: 0, lastContact: 0, begin: 0, apart: Infinity, moment: 0, place: 0, time: 0, force: 0,
       pressed: 0, left: false };
-    const early = [[0, 0]], frames = [];
+    const early = [[0, 0]], frames = [], course = [abs(p.before)]; // course: largest moment at each step
     let first = null, worst = abs(p.before);
     const keep = (t, span) => {
       const force = Float32Array.from(since, (value, j) => value / (span * share[j])); // mean since the last frame
@@ -122,6 +122,7 @@ const Solver = (() => {
       if (p.wall && pushed / h > found.force) Object.assign(found, { force: pushed / h, pressed: t });
       const j = bend(m, p, moment), bent = abs(moment[j]), span = t - frames[frames.length - 1].t;
       worst = max(worst, bent);
+      course.push(bent);
       if (bent > found.moment && t > UNRESOLVED) Object.assign(found, { moment: bent, place: j * l, time: t });
       if (span < spacing(t) - h / 2) continue;
       keep(t, span);
@@ -135,7 +136,7 @@ const Solver = (() => {
     const late = { moment: found.time > end - PERIOD, force: found.pressed > end - PERIOD };
     const lastContact = over ? hit.lastContact : null;
     const ends = { begin: hit.begin, apart: hit.apart, lastContact, returns: nearest(frames, m.gap, hit.lastContact) };
-    return { ...found, ...ends, impulse: over ? hit.impulse : null, restitution, late, until, frames, early };
+    return { ...found, ...ends, impulse: over ? hit.impulse : null, restitution, late, until, frames, early, course, steps };
   }
 
   return { simulate };
