@@ -1,5 +1,6 @@
 """One question, one answer: whichever door is asked, the same number with the same bar, to the last digit."""
 
+import json
 import random
 from collections.abc import Iterator
 from dataclasses import replace
@@ -16,6 +17,7 @@ from bent_beam import Impact, ImpactHistory
 from bent_beam.cases import Case, load_case, read_toml
 from bent_beam.measure.force_map import force_map
 from bent_beam.meshes import UniformMesh
+from bent_beam.versions import versions
 from comparison import bounce, match, predict
 from comparison.bounced import scales
 from comparison.compare import compare_histories, rerun_history
@@ -143,7 +145,11 @@ def test_of_two_runs_of_the_whole_beam_both_halves_are_compared_and_drawn() -> N
 
 def test_times_and_places_that_have_moved_are_a_difference_of_a_run_that_is_repeated() -> None:
     dataset = HermiteFE(mesh=UniformMesh(0.1)).simulate(Impact.whole_beam(0.5), end_time=0.01, save=8).dataset
-    assert rerun_history(ImpactHistory.of(dataset))["identical"]
+    found = rerun_history(ImpactHistory.of(dataset))
+    assert found["identical"] and found["versions_changed"] == {}
+    before = json.dumps(versions() | {"numpy": "1.0"})
+    found = rerun_history(ImpactHistory.of(dataset.assign_attrs(versions=before)))
+    assert found["versions_changed"] == {"numpy": ["1.0", versions()["numpy"]]}
     for moved in ("time", "x", "contact_x"):
         found = rerun_history(ImpactHistory.of(dataset.assign_coords({moved: 1.5 * dataset[moved]})))
         assert not found["identical"] and found["largest_difference"] == {moved: pytest.approx(1.0 / 3.0)}

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from called import answered, command, refused
 from here import CASES
-from histories import rod
+from histories import history_of, rod
 
 from bent_beam import Impact
 from bent_beam.cases import case_from_tables, load_case
@@ -20,7 +20,7 @@ from bent_beam.measure.numbers import FACTOR, Number
 from bent_beam.meshes import UniformMesh
 from comparison import predicting
 from comparison.bouncing import case_of
-from comparison.doubts import doubts
+from comparison.doubts import doubts, steep
 from comparison.predicting import CHECKED, COMPARED, LATEST, predict_case
 from comparison.readable import number_from
 from comparison.texts import prediction_text
@@ -125,6 +125,16 @@ def test_a_pull_as_large_as_the_buckling_load_leaves_half_of_a_bow_and_a_tenth_o
     held = Impact(4.0, 1.0, 2.0, 0.1, 1.0, axial_force=np.pi**2, tension_direction="tangent", acceleration=0.0)
     assert doubts(held, None) == []  # by other forces
     assert doubts(beam.replace(axial_force=-0.9 * np.pi**2, natural_curvature=0.0), None) == []  # likewise
+
+
+def test_slopes_that_grow_beyond_small_ones_are_told_with_their_time_and_those_of_the_bow_are_not() -> None:
+    time, x = np.array([0.0, 1.0, 2.0]), np.linspace(0.0, 1.0, 5)
+
+    def said(*largest: float) -> list[str]:
+        return steep(history_of(time, x, impact=Impact(4.0, 1.0, 2.0, 0.1, 1.0), slope=np.outer(largest, x)))
+
+    assert said(0.1, 0.2, 0.29) == said(0.5, 0.4, 0.5) == []
+    assert "reach 0.9 (0.3 at 1 s)" in said(0.1, 0.4, 0.9)[0] and "reach 0.5:" in said(0.4, 0.5, 0.4)[0]
 
 
 def test_a_gate_that_touches_all_at_once_mistaken_units_and_a_hole_that_bends_on_one_side_alone_are_doubted() -> None:

@@ -1,6 +1,7 @@
 """The whole impact by Exudyn: waves back from the ends, slaps of the tips, the last separation; two walls; rocking."""
 
 import dataclasses
+import time
 
 import numpy as np
 import pytest
@@ -13,7 +14,8 @@ from bent_beam.meshes import UniformMesh
 from exudyn_models import ExudynModel
 from exudyn_models.contacts import Penalty, SegmentFriction, penalty
 from exudyn_models.elements import GeometricallyExact
-from exudyn_models.integrators import Trapezoidal
+from exudyn_models.integrators import GeneralizedAlpha, Trapezoidal
+from exudyn_models.resolution import chosen_steps
 from exudyn_models.solvers import USUAL, NewtonSolver
 
 PAGE = [  # κ/ν, η/T*, this path's number and the Hermite path's of the finest mesh
@@ -39,13 +41,24 @@ def closes(history, tolerance=1e-6):
 
 def test_a_bounce_ends_when_the_beam_cannot_come_back_and_keeps_its_energy_account():
     """What is left of geometry is the square of the slopes: at amplitude 1e-3 of V₀T it was 8e-6 of the energy."""
+    began = time.perf_counter()
     history = COARSE.simulate_to_separation(Impact.whole_beam(2.0, relative_damping=1e-2))
+    assert 0.0 < history.seconds < time.perf_counter() - began  # what Exudyn took of it
     assert restitution(history) == pytest.approx(0.5663, abs=2e-3)
     assert history.array("gap")[-1].min() > 0.0
     assert history.energy_budget()["loss_viscous"] == 0.0 and history.energy_budget()["loss_material"] > 0.4
     closes(history, 1e-7)
     scale = history.settings["amplitude"] / history.settings["amplitude_of_the_real_beam"]
     assert np.abs(history.array("slope")).max() * scale < 3e-4
+
+
+def test_steps_that_resolve_a_wave_on_an_element_are_taken_unless_they_would_be_too_many() -> None:
+    """½Δx²√(μ/EI): 800 to a T* on 20 elements of a half beam; on 2000, half a T* would take four million."""
+    beam, open_steps = Impact.whole_beam(2.0), GeneralizedAlpha()
+    few = chosen_steps(open_steps, 1.0, UniformMesh(1 / 20), beam, 0.5)
+    assert few.time_step == pytest.approx(1 / 800) and few.relative_step is None
+    many = chosen_steps(open_steps, 1.0, UniformMesh(1 / 2000), beam, 0.5)
+    assert many.time_step is None and many.relative_step == open_steps.default_step
 
 
 @pytest.mark.verify

@@ -216,7 +216,8 @@ def test_a_zone_that_should_lift_and_does_not_widens_the_error_bars():
 @pytest.mark.parametrize("with_slope", [True, False])
 @pytest.mark.parametrize("natural", [None, 0.1])
 def test_the_moment_of_a_cubic_is_exact_and_the_peak_is_where_it_is_largest(with_slope, natural):
-    """y = t(ax² + bx³) against a curved wall: M = EI(t(2a + 6bx) + K₀); the first saved instant does not count."""
+    """y = t(ax² + bx³) against a curved wall: M = EI(t(2a + 6bx) + K₀); the first saved instant does not count, the
+    second does."""
     a, b, stiffness, wall = 0.3, 0.2 if with_slope else 0.0, 2.5, 0.05  # differences are exact for a parabola
     impact = Impact(stiffness, 1.0, 4.0, 0.2, 1.0, wall_curvature=wall, natural_curvature=natural)
     time, x = np.array([9.0, 1.0, 3.0, 2.0]), np.array([0.0, 0.3, 0.7, 1.2, 2.0])
@@ -233,6 +234,7 @@ def test_the_moment_of_a_cubic_is_exact_and_the_peak_is_where_it_is_largest(with
     assert peak.time == 2.0
     if with_slope:
         assert peak.place == 2.0
+    assert peak_moment(history, until=1.0).moment == pytest.approx(exact[1, -1], rel=1e-12)
     assert peak.moment == pytest.approx(exact[2, -1], rel=1e-12)
     assert peak.midspan == pytest.approx(exact[2, 0], rel=1e-12)
 
