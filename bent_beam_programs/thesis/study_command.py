@@ -32,7 +32,9 @@ def study(
     assignments: options.Set = None,
     methods: options.Methods = None,
     refine: options.Refine = None,
-    out: Annotated[Path | None, typer.Option(help="Folder for figure, table and conclusion.")] = None,
+    out: Annotated[
+        Path | None, typer.Option(help="Folder for figure, table and conclusion, replaced if there.")
+    ] = None,
     jobs: options.Jobs = 1,
     as_json: options.Json = False,
     quiet: options.Quiet = False,

@@ -33,7 +33,9 @@ def bounce(
     ] = None,
     seed: Annotated[int | None, typer.Option(min=0, help="Seed of the ensemble. Default: 15.")] = None,
     hits: Annotated[int, typer.Option(min=1, max=20, help="Number of hits to follow under loads.")] = 1,
-    out: Annotated[Path | None, typer.Option(help="Folder for document, picture and animation.")] = None,
+    out: Annotated[
+        Path | None, typer.Option(help="Folder for document, picture and animation, replaced if there.")
+    ] = None,
     jobs: options.Jobs = 1,
     fresh: options.Fresh = False,
     verbose: options.Verbose = False,
@@ -134,7 +136,9 @@ def sweep(
     assignments: options.Set = None,
     jobs: options.ManyJobs = None,
     scheduler: options.Scheduler = None,
-    out: Annotated[Path | None, typer.Option(help="Folder for the table (CSV, netCDF) and the figure.")] = None,
+    out: Annotated[
+        Path | None, typer.Option(help="Folder for the table (CSV, netCDF) and the figure, replaced if there.")
+    ] = None,
     fresh: options.Fresh = False,
     as_json: options.Json = False,
     quiet: options.Quiet = False,
