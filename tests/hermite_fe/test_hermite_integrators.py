@@ -105,6 +105,7 @@ def test_a_penalty_carries_a_weight_by_its_penetration_and_bounces_elastically_w
     assert np.abs(run.q[:, 0] - exact).mean() < 5e-3
 
 
+@pytest.mark.verify
 def test_the_guide_s_integrator_gives_the_impulse_of_the_impact() -> None:
     impact, mesh = Impact.dimensionless(0.5, length=20.0), ScaleFreeMesh(element_length=2e-3, growth=1.02)
     kinds = (GUIDES(time_step=2e-5, growth=4e-3), SignoriniPosition(time_step=1e-5, growth=2e-3))
