@@ -54,6 +54,8 @@ def test_a_section_that_knows_its_shear_makes_timoshenko_s_beam_unless_euler_and
     pipe = Pipe(outer_diameter=0.127, wall_thickness=0.0092, **STEEL)
     assert (found.model, found.shear_stiffness) == ("timoshenko", pipe.shear_stiffness)
     assert found.rotary_inertia == pytest.approx(7850.0 * pipe.second_moment, rel=1e-14)
+    along = 12.0 * found.bending_stiffness / found.section_height**2  # EA of the rectangle that stands for it
+    assert along == pytest.approx(pipe.youngs_modulus * pipe.area, rel=1e-12)
     assert found.shear_ratio == pytest.approx(pipe.shear_coefficient / 2.6, rel=1e-12)  # κ_sG/E: nothing moves along
     assert case(BOW | {"model": "euler_bernoulli"}).impact == found.unsheared
     assert case(PLAIN, None).impact.model == "euler_bernoulli"

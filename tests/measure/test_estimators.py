@@ -259,6 +259,16 @@ def test_the_moment_in_the_middle_needs_no_node_there(nodes):
     assert peak_moment(history).midspan == pytest.approx(2.5e-3 * (3.0 * 0.6 + 0.2), rel=1e-12)
 
 
+def test_the_moment_in_the_middle_is_that_of_the_element_there() -> None:
+    """y = (|x| − 5 cm)³ beyond 5 cm: no moment in the middle."""
+    x, time = np.array([-0.2, -0.05, 0.05, 0.2]), np.array([0.0, 1.0])
+    beyond, one = np.maximum(np.abs(x) - 0.05, 0.0), np.array([[0.0], [1.0]])
+    bent = {"gap": -one * beyond**3, "slope": one * 3.0 * np.sign(x) * beyond**2}
+    impact = Impact(1.0, 1.0, 0.4, 0.2, 1.0, natural_curvature=0.0)
+    found = peak_moment(history_of(time, x, impact=impact, symmetry="full", **bent))
+    assert (found.moment, found.midspan) == (pytest.approx(6.0 * 0.15), pytest.approx(0.0, abs=1e-12))
+
+
 def test_one_run_saved_at_other_times_and_further_is_the_same_run():
     """A straight beam that flies at V₀ = 1 and bends to y_xx = t² meanwhile."""
     x, impact = np.linspace(0.0, 1.0, 11), Impact.dimensionless(0.5).replace(natural_curvature=0.0)
