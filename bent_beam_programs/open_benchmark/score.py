@@ -142,8 +142,7 @@ def _judged(found: Score, result: Result) -> Score:
     seen, missing = readings(result, front)
     shown = [one for one in seen.values() if one.seen]
     shown.sort(key=lambda one: not (one.name == "energy" and (one.figure or 0.0) > 1.0))  # a blow-up is that first
-    found = replace(found, readings=seen, not_told=missing)
-    found = replace(found, symptoms=(*shown, *_of_numbers(found)))
+    found = replace(found, readings=seen, not_told=missing, symptoms=(*shown, *_of_numbers(found)))
     additions = [WORDS[one.name] for one in shown if one.name in WORDS]
     if found.off:
         additions.append("off")
