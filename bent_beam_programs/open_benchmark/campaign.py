@@ -1,8 +1,6 @@
 """All codes on all problems at three resolutions: drawn, run, kept, scored, resumed.
 
-A row was *run here* when the runner ran the adapter itself on a problem drawn here, and the result has nodal histories
-and gaps: the judge adds up J and its moment, and compares the impulse along the beam. Every other row is self-declared,
-says why, and is called clean only if it holds these, too.
+docs/guide/submit.md says which rows were *run here*; every other one is self-declared.
 
 Nobody can have the answers of drawn problems ready. κ/ν, ζ and the stiffness of a stop are within 15 % of the named
 problem's, each load within 30 %, tension with the free motion that belongs to it. Problems with one κ/ν get one κ/ν, so

@@ -1,17 +1,8 @@
 """Problems of the open benchmark: ids, their physics, and the TOML file that an adapter reads (schema beam-impact/2).
 
-    leading-K              the infinite beam at leading order, κ/ν = K; contact spreads for K < 1
-    point-K                the same with K ≥ 1: one point in contact
-    first-K-A-P-C[-N]      the same with small loads (α, ψ, χ[, n]) = (A, P, C[, N]), compared with leading-K
-    bounce-K-D             the free beam of finite length until it has left the wall, η/T* = D
-    stopped-beam           the same until its first release: one point that holds
-    ball  chattering-ball  bar  released-bar  bouncing-bar  string
-                           the ladder's lower rungs: closed forms without bending
-    elastic-wall-K-Z       the infinite beam on a wall that gives way, κ/ν = K, ζ = c/(2√(kμ)) = Z: the largest force
-    elastic-stop-S         a hinged beam swung on a stop of stiffness S, N/m: the largest force
-
-All problems but those with a table of their own are posed in units that make the stiffness, the mass and the velocity
-one, in which every reference is known. A file holds no reference value and nothing numerical.
+docs/benchmark.md lists the ids. All problems but those with a table of their own are posed in units that make the
+stiffness, the mass and the velocity one, in which every reference is known. A file holds no reference value and nothing
+numerical.
 """
 
 from __future__ import annotations

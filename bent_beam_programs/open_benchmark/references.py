@@ -1,10 +1,8 @@
 """Values that results are held against, as data: ``references.json`` (schema beam-impact-references/2).
 
-Exact numbers of the infinite beam and of the ladder, and those of elastic walls and stops with their errors, stand in
-``references.json``, for the problems that are shipped, so that scoring needs no theory. A problem of other parameters
-has its references computed (:mod:`.exact`). A whole impact has no closed form: its reference is a converged simulation
-with an error bar, stored for the shipped problems in ``bounce_reference.json`` (:mod:`.bounce_reference`), and run on
-a coarser mesh for others.
+Those of the problems that are shipped stand there, so that scoring needs no theory; those of other parameters are
+computed (:mod:`.exact`). Of a whole impact, which has no closed form, they stand in ``bounce_reference.json``
+(:mod:`.bounce_reference`), or are run on a coarser mesh.
 """
 
 from __future__ import annotations

@@ -1,10 +1,8 @@
 """One result of the open benchmark: its fields and their validation.
 
-Required fields: ``outcome``, ``problem`` (texts), ``tau`` (n), ``metadata`` (one JSON text), and what the wall gave:
-``node_x`` (m) with ``node_impulse`` (n, m), the impulse of each contact point up to each instant, from which J and Jm
-are added up here; or ``J`` (n) and ``Jm`` (n), declared. All numbers are in units of μ, V₀, l* and t*: J in μV₀l*, its
-first moment Jm over x ≥ 0 in μV₀l*², energies in μV₀²l*, gaps in l*. A missing field is ``None`` or empty, never zero.
-bent_beam_programs.open_benchmark.reading reads the files.
+docs/guide/enter.md lists the fields; from ``node_impulse`` J and Jm are added up here. Numbers are in units of μ, V₀,
+l* and t*: J in μV₀l*, its first moment Jm over x ≥ 0 in μV₀l*², energies in μV₀²l*, gaps in l*. A missing field is
+``None`` or empty, never zero. bent_beam_programs.open_benchmark.reading reads the files.
 """
 
 from __future__ import annotations
