@@ -72,7 +72,6 @@ class Adapter:
         return Path(scripts) / ("python.exe" if WINDOWS else "python")
 
     def command(self, problem_file: Path, result_file: Path, resolution: str) -> list[str]:
-        """The words of its command line."""
         start = [str(self.python), str(self.file)] if self.file.suffix == ".py" else [str(self.file)]
         return [*start, str(problem_file), str(result_file), resolution, *self.arguments]
 
@@ -113,7 +112,6 @@ class Adapter:
 
 
 def shipped_adapters() -> dict[str, Adapter]:
-    """The adapters that are shipped, by name."""
     with open(ADAPTERS / "adapters.toml", "rb") as stream:
         tables = tomllib.load(stream)
     found = {}

@@ -47,8 +47,6 @@ TEMPLATES = Path(__file__).resolve().parent / "templates"
 
 @dataclass(frozen=True)
 class Content:
-    """All that the page shows."""
-
     rows: Sequence[MatchRow]
     impacts: Sequence[ShownImpact] = ()
     lost_impacts: Sequence[str] = ()

@@ -126,7 +126,6 @@ class Sheet:
                 axis.plot([0, 1], [level, level], color="black", lw=thick, transform=axis.transAxes, clip_on=False)
 
     def csv(self) -> str:
-        """The data as CSV text."""
         stream = io.StringIO()
         writer = csv.writer(stream, lineterminator="\n")
         writer.writerows([["" if v is None else v for v in row] for row in self.rows])

@@ -20,7 +20,6 @@ FACTOR = 2.0
 
 
 def digits(printed: str) -> int:
-    """How many significant digits are printed."""
     return len(Decimal(printed).as_tuple().digits)
 
 

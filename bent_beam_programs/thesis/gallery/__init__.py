@@ -40,7 +40,6 @@ ITEMS: dict[str, Item] = {name: _REGISTERED[name] for name in sorted(_REGISTERED
 
 
 def listing() -> list[dict[str, str]]:
-    """All items: id, title and caption of each."""
     return [{"id": i.id, "title": i.title, "caption": i.caption} for i in ITEMS.values()]
 
 

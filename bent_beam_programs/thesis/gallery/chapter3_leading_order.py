@@ -193,7 +193,6 @@ def first_impact(element: float, mass: Mass, step: float = STEP) -> tuple[float,
 
 
 def geometry(sheet: Sheet, axis: Axes, history: ImpactHistory, times: tuple[float, ...], wall: tuple[int, int]) -> None:
-    """Deflections at several times."""
     x, gap, slope = history.positions(-1), history.array("gap"), history.array("slope")
     near, between = x <= 0.16, np.linspace(0.0, 0.15, 121)
     axis.set(xlabel="$x$  (m)", ylabel="deflection $y$  (mm)")

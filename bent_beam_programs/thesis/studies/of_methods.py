@@ -57,7 +57,6 @@ class MethodOnCase:
         return Variant(self.method.label, method=method, value=value, setting=name, **about)
 
     def has(self, name: str) -> bool:
-        """Whether the method has a part of this name."""
         return name in getattr(self.method, "PARTS", {})
 
     def kinds(self, name: str) -> Mapping[str, type]:
@@ -91,7 +90,6 @@ class MethodOnCase:
             return chosen
 
     def with_parts(self, **parts: Any) -> Method:
-        """A copy of the method with other parts."""
         changed: Method = dataclasses.replace(self.method, **parts)
         return changed
 

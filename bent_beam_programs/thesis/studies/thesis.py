@@ -74,7 +74,6 @@ class Settings:
         return dataclasses.replace(self, **changes)
 
     def method(self) -> HermiteFE:
-        """The Hermite path with these settings."""
         scheme = INTEGRATORS["nonsmooth_generalized_alpha"]
         return HermiteFE(
             mesh=self.mesh or GradedMesh(self.element_length, self.growth, zone=self.zone),
@@ -86,7 +85,6 @@ class Settings:
 
 
 def thesis_settings(impact: Impact, end_time: float) -> Settings:
-    """The thesis's settings for a case (see the module's text)."""
     exact = Exact(impact)
     reach = float(exact.parameters.lambda0) * impact.length_scale * math.sqrt(end_time / impact.time_scale)
     front = max(float(exact.front(end_time)), reach)
