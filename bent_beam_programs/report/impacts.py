@@ -34,7 +34,7 @@ END = 0.1  # τ
 START = 0.1  # of the way in √τ, the first frame
 THEORY_TIMES = 14  # between which the theory's shape is interpolated in x/√τ
 
-ENERGIES: dict[str, dict[str, Any]] = {
+ENERGIES: dict[str, dict[str, Any]] = {  # what a method may report → how it is drawn
     name: {"title": title, "colour": colour, "dash": name.startswith("loss")}
     for name, title, colour in (
         ("kinetic_energy", "kinetic energy, change", "#0072B2"),
@@ -47,7 +47,6 @@ ENERGIES: dict[str, dict[str, Any]] = {
         ("loss_absorbed", "absorbed far away", "#777777"),
     )
 }
-"""What a method may report → how it is drawn."""
 
 
 @dataclass(frozen=True)

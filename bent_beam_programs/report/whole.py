@@ -17,14 +17,13 @@ from comparison.texts import validity_text
 
 PIPE = EXAMPLES / "drill_pipe.toml"
 TIMES = (0.001, 0.005, 0.010)  # s
-COLUMNS = {
+COLUMNS = {  # of the first instants: name → heading and its unit
     "half_contact_length": ("λ<sub>c</sub>, m", 1.0),
     "reaction": ("R, kN", 1e3),
     "impulse": ("impulse, N s", 1.0),
     "peak_moment": ("bending moment, kN m", 1e3),
     "peak_stress": ("stress, MPa", 1e6),
 }
-"""Of the first instants: name → heading and its unit."""
 WHOLE = {
     "restitution": ("coefficient of restitution {}", 1.0),
     "last_contact": ("last contact after {} s", 1.0),

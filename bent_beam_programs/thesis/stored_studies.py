@@ -58,7 +58,7 @@ CASES: dict[str, dict[str, Any]] = dict.fromkeys(STUDIES, BENT) | {  # those tha
     "contact-point": of_leading_order("1/80", 1.0 / 80.0, "1/1600", 0.1),  # 3.3.5
     "first-order-case": FIRST_ORDER,  # 3.5
 }
-SAYS = {
+SAYS = {  # what the thesis says of a study, and whether it is so, on its own case
     "time-step": "The thesis (3.3.1) sees the lift whatever h, and rules out 10⁻⁶ and 10⁻⁷ s by their reactions. Here "
     "neither lift nor r₀ depends on h from 10⁻⁷ s down; its reactions do, because of its filter.",
     "mesh": "The thesis (3.3.2) sees lifts of one order whatever Δx, no effect of e, and too large a reaction with "
@@ -74,7 +74,6 @@ SAYS = {
     "first-order-case": "The thesis (3.5) fits 227 and −270.8 m/s^1.5, does not say over which part of its run, and "
     "has no value of theory to compare with.",
 }
-"""What the thesis says of a study, and whether it is so, on its own case."""
 COMPARED = ("contact_length_error", "reaction_error", "fit_1")
 WITHIN = 0.02  # of a number and, for the errors in per cent, absolute
 

@@ -15,8 +15,7 @@ from comparison.readable import readable
 ROUNDING, SAME, OFF = "within rounding", "same order", "off"
 RULE, AXES = "other rule, stated by the thesis", "inferred from axes"
 CLASSES = (ROUNDING, SAME, OFF, RULE, AXES)
-FACTOR = 2.0
-"""Of the same order: at most so many times larger or smaller."""
+FACTOR = 2.0  # of the same order: at most so many times larger or smaller
 
 
 def digits(printed: str) -> int:

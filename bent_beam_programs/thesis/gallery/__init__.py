@@ -36,7 +36,6 @@ for _module in iter_modules(__path__):  # each registers its items
     import_module(f"{__name__}.{_module.name}")
 
 ITEMS: dict[str, Item] = {name: _REGISTERED[name] for name in sorted(_REGISTERED, key=order)}
-"""Items in the order of the thesis."""
 
 
 def listing() -> list[dict[str, str]]:

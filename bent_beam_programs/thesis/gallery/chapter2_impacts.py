@@ -17,8 +17,7 @@ from theory import ImpactFields, contact_parameters
 
 EPSILON = 0.1
 REGULAR, WHOLE = plain_line("grey", "--", 1.4), plain_line("purple", ":", 1.2)
-PLACES = np.linspace(-1.5, 1.5, 121)
-"""a = ξ/λ_c of the figures of the contact zone."""
+PLACES = np.linspace(-1.5, 1.5, 121)  # a = ξ/λ_c of the figures of the contact zone
 
 
 def zone_panel(axis: Axes, symbol: str) -> None:

@@ -18,8 +18,7 @@ from comparison.readable import readable
 FLAT, BENT = 1.0 / 80.0, 1.0
 CONTACT = ("node", "middle")
 PAIRS = [(mass, contact) for mass in MASSES for contact in CONTACT]
-COLOURS = dict(zip(PAIRS, panels.LINES))
-"""Of each of the four, in every figure."""
+COLOURS = dict(zip(PAIRS, panels.LINES))  # of each of the four, in every figure
 SHOWN = "K = 1/80 1/m, Δx = 2.5·10⁻³ m, h = 2.5·10⁻⁸ s, e = 1.25, ρ∞ = 0.8"
 TIMES = (2.5e-5, 1e-4, 1.75e-4, 2.5e-4)
 

@@ -16,8 +16,7 @@ from theory.ladder import BouncingBall
 
 LENGTH, STIFFNESS, ELEMENTS = 5.0, 9.345e3, 52
 NODES = np.linspace(0.0, LENGTH, ELEMENTS + 1)
-AXIS_STIFFNESS = 500.0 * STIFFNESS
-"""EI, N m², that fits the printed axes of both figures; the captions print a five-hundredth of it."""
+AXIS_STIFFNESS = 500.0 * STIFFNESS  # EI, N m², that fits the axes of both figures; captions print a 500th of it
 PRINTED = (
     "Drawn with EI = 4.67·10⁶ N m², which fits the thesis's axis; with the printed EI = 9.345·10³ N m² the deflection "
     "would be five hundred times as large, against both printed axes. Hermite elements are exact at the nodes"

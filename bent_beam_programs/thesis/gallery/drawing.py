@@ -24,14 +24,13 @@ from bent_beam_programs.thesis.studies.thesis import MASSES
 from comparison.figures import style
 from theory import ImpactFields
 
-NUMBERS: dict[Panel, tuple[str, ...]] = {
+NUMBERS: dict[Panel, tuple[str, ...]] = {  # measures that go with a panel
     studied.geometry: ("lift",),
     studied.contact_length: ("contact_length_error",),
     filtered: ("reaction_error",),
     banded: ("reaction_error",),
     studied.energy: ("lost_impact", "lost_damping"),
 }
-"""Measures that go with a panel."""
 TIMES, PLACES = 60, 80
 DECADES = 4.0  # of the colour scale: below is noise of no consequence, pale
 

@@ -29,16 +29,14 @@ from hermite_fe import CONTACTS, HermiteFE
 from hermite_fe.contacts import impact_coupling
 from hermite_fe.masses import LumpedMass, Mass
 
-ROTARY = (16.0, 24.0, 32.0, 50.0, 105.0, 420.0)
-"""1/r of the lumped masses of the coupling figure."""
-CANDIDATES = {
+ROTARY = (16.0, 24.0, 32.0, 50.0, 105.0, 420.0)  # 1/r of the lumped masses of the coupling figure
+CANDIDATES = {  # mass matrices that the thesis's numbers were tried on; sources in hermite_fe.masses.LumpedMass
     "consistent": CONSISTENT,
     "lumped, r = 1/24": LumpedMass(1.0 / 24.0),
     "lumped, r = 1/78": LumpedMass(1.0 / 78.0),
     "lumped, r = 1/105": THESIS_MASS,
     "lumped, r = 1/420": LumpedMass(1.0 / 420.0),
 }
-"""Mass matrices that the thesis's numbers were tried on; sources in :class:`hermite_fe.masses.LumpedMass`."""
 
 
 @item("extra-uniform")

@@ -26,8 +26,7 @@ from hermite_fe.resolution import Composition
 from hermite_fe.run import Stepper, saved_steps, trajectory_of
 from hermite_fe.simulate import history_of, settings_of_run
 
-HALF = 0.5
-"""Of Hermite's resolution, for references with thin fronts: 0.1 % off, which no circle shows, a quarter of the time."""
+HALF = 0.5  # of Hermite's resolution, for references with thin fronts: 0.1 % off, in a quarter of the time
 
 
 def case(curvature: float, duration: float) -> Case:

@@ -31,10 +31,8 @@ from hermite_fe.contacts import NodeContact
 from hermite_fe.integrators.generalized_alpha import scheme_of
 
 FACTORS = (4.0, 2.0, 1.0, 0.4, 0.2, 0.1, 0.04)
-UNCAPPED = 1e9
-"""Ratio of lengths, in place of the thesis's cap of 10³, which it introduced because of the conditioning."""
-LIMIT = 1.0 / np.finfo(float).eps
-"""Condition at which no digit is left; Matlab warns at this number."""
+UNCAPPED = 1e9  # ratio of lengths, in place of the thesis's cap of 10³, which it introduced because of the conditioning
+LIMIT = 1.0 / np.finfo(float).eps  # condition at which no digit is left; Matlab warns at this number
 COLUMNS_AT_ONCE = 256  # of an inverse
 COLUMNS = {
     "element_length": "Δx (m)",

@@ -16,13 +16,12 @@ from exudyn_models.geometry import GEOMETRIES
 STIFFNESS, DAMPING, RADIUS = 10.0, 3.0, 0.5  # penalty C EI/Δx⁴ and D √(EIμ)/Δx², ρ∞
 STEP = 5e-3  # h/t
 SAVED = 250
-RUNS: dict[str, tuple[float | None, tuple[float, float, float]]] = {
+RUNS: dict[str, tuple[float | None, tuple[float, float, float]]] = {  # label → (value, (C, D, ρ∞))
     "bare: C = 10, D = 3, ρ∞ = 0.5": (None, (STIFFNESS, DAMPING, RADIUS)),
     **{f"C = {c:g}": (c, (c, DAMPING, RADIUS)) for c in (0.1, 1.0, 100.0)},
     **{f"D = {d:g}": (d, (STIFFNESS, d, RADIUS)) for d in (0.0, 0.3, 30.0)},
     **{f"ρ∞ = {r:g}": (r, (STIFFNESS, DAMPING, r)) for r in (0.0, 0.9, 1.0)},
 }
-"""Label → (value, (C, D, ρ∞))."""
 TRIED = {"C": ("relative_stiffness", (1.0, 10.0, 100.0)), "D": ("relative_damping", (0.3, 3.0, 30.0))}
 """Of a method: symbol → (field of its contact, values)."""
 # Slopes over the front are of order √τ, τ = t/t* (:class:`exudyn_models.geometry.TrueGeometry`): the end time sets them

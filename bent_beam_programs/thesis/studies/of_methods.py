@@ -124,8 +124,7 @@ class MethodOnCase:
         return []
 
 
-Vary = Callable[[MethodOnCase], Sequence[Variant]]
-"""The runs of a study on a method; raises :class:`NotVaried`."""
+Vary = Callable[[MethodOnCase], Sequence[Variant]]  # the runs of a study on a method; raises NotVaried
 
 
 def of_kind(kind: type, part: Any) -> Any:

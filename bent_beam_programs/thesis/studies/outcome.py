@@ -35,7 +35,7 @@ Array = NDArray[np.float64]
 WINDOWS = 50
 CUT_OFF = 0.04
 TOUCH = 1e-6  # of V₀t: smaller gaps are contact (the thesis takes 10⁻⁶ m, too much ahead of a thick front)
-MEASURES: dict[str, str] = {
+MEASURES: dict[str, str] = {  # numbers of an outcome and their headings
     "contact_length_error": "λ₀ error (%)",
     "reaction_error": "r₀ error (%)",
     "lift": "lift/(V₀t)",
@@ -47,7 +47,6 @@ MEASURES: dict[str, str] = {
     "steps": "steps",
     "seconds": "seconds",
 }
-"""Numbers of an outcome and their headings."""
 
 
 def saved_times(end: float) -> Array:

@@ -133,8 +133,7 @@ class Variant:
         return simulated(self.method.simulate, self.impact, end_time=self.end_time, save=save)
 
 
-Runs = dict[str, tuple[float | None, dict[str, Any]]]
-"""Label → (value of the varied parameter, changes of the settings)."""
+Runs = dict[str, tuple[float | None, dict[str, Any]]]  # label → (value of the parameter, changes of the settings)
 
 
 def varied(case: Case, base: Settings, runs: Runs, *more: Variant) -> list[Variant]:
