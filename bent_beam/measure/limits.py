@@ -27,7 +27,7 @@ steps close the energy to their own order alone and have forces within them: the
 one step of which the solver keeps another state of the contact has 1e-6."""
 IMPLICIT = ("GeneralizedAlpha", "Newmark", "Trapezoidal")
 """Integrators of Exudyn with the limits of "exudyn"; one that is not named has those of the explicit ones."""
-ELSEWHERE = {"penetration": 1e-2, "pull": 0.1, "energy": 1e-2, "middle_slope": 1e-6}
+ELSEWHERE = {"penetration": 1e-2, "pull": 0.1, "energy": 1e-2, "middle_slope": 1e-6, "law": 0.04}
 OF_ALL = {"momentum": 3e-3, "second_moment": 5e-3, "points": 1e-8, "initial_energy": 1e-8}
 """Limits whatever the path: 16 elements a half beam leave 1e-3 of the impulse and its second moment, default runs 1e-5;
 the others are round-off."""

@@ -1,7 +1,9 @@
 """The benchmark's page: a work–precision sheet per problem, property × code, adapters' sources, how to enter.
 
-HTML that needs no network, and the same in JSON. A property is one number over the rows of one code. Figures are told
-in docs/benchmark.md; a code has the same colour and mark in every one.
+HTML that needs no network, and the same in JSON. A property is one number over the rows of one code. Figures show the
+relative error against the seconds of the adapter's own loop, else of its process, a line a code from coarse to fine
+mesh: a code has the same colour and mark in every figure; a point whose contact zone is lifted off is open, one whose
+wall pulls is crossed out.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """Values that results are held against, as data: ``references.json`` (schema beam-impact-references/2).
 
-Those of the problems that are shipped stand there, so that scoring needs no theory; those of other parameters are
-computed (:mod:`.exact`). Of a whole impact, which has no closed form, they stand in ``bounce_reference.json``
-(:mod:`.bounce_reference`), or are run on a coarser mesh.
+Values of the shipped problems stand there, so that scoring needs no theory; those of other parameters are computed
+(:mod:`.exact`). A whole impact has no closed form: its values, of a converged simulation with its error bars, stand in
+``bounce_reference.json`` (:mod:`.bounce_reference`), those of other parameters come from a run on a coarser mesh.
 """
 
 from __future__ import annotations

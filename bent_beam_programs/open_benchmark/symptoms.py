@@ -155,8 +155,11 @@ def _lost(result: Result, of: str, series: Array, deficit: Callable[..., Array],
 
 
 def _penetration(result: Result, _: float = 0.0) -> Seen:
-    found = [(max(float(-g.min()), 0.0) / when, _at(x[int(g.argmin())], when)) for when, x, g in result.snapshots()]
-    return max(found, default=None)
+    found = [(float(-gap.min()) / when, x[int(gap.argmin())], when) for when, x, gap in result.snapshots()]
+    if not found:
+        return None
+    deepest, x, when = max(found)
+    return max(deepest, 0.0), _at(x, when)
 
 
 def _lift(result: Result, lambda0: float) -> Seen:

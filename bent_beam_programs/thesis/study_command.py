@@ -33,7 +33,7 @@ def study(
     methods: options.Methods = None,
     refine: options.Refine = None,
     out: Annotated[
-        Path | None, typer.Option(help="Folder for figure, table and conclusion, replaced if there.")
+        Path | None, typer.Option(help="Folder for figure, table and conclusion; earlier ones are replaced.")
     ] = None,
     jobs: options.Jobs = 1,
     as_json: options.Json = False,

@@ -82,7 +82,9 @@ def predict(
     ] = None,
     theory_only: Annotated[bool, typer.Option("--theory-only", help="Closed forms only, without simulation.")] = False,
     assignments: options.Set = None,
-    out: Annotated[Path | None, typer.Option(help="Folder for document and picture, replaced if there.")] = None,
+    out: Annotated[
+        Path | None, typer.Option(help="Folder for document and picture; earlier ones are replaced.")
+    ] = None,
     fresh: options.Fresh = False,
     as_json: options.Json = False,
     quiet: options.Quiet = False,

@@ -78,7 +78,9 @@ def match(
     limit: Annotated[float | None, typer.Option(help="Time limit of a row, s.")] = None,
     jobs: options.ManyJobs = None,
     scheduler: options.Scheduler = None,
-    out: Annotated[Path | None, typer.Option(help="Folder for the table and the plots, replaced if there.")] = None,
+    out: Annotated[
+        Path | None, typer.Option(help="Folder for the table and the plots; earlier ones are replaced.")
+    ] = None,
     fresh: options.Fresh = False,
     as_json: options.Json = False,
     quiet: options.Quiet = False,

@@ -34,7 +34,7 @@ def bounce(
     seed: Annotated[int | None, typer.Option(min=0, help="Seed of the ensemble. Default: 15.")] = None,
     hits: Annotated[int, typer.Option(min=1, max=20, help="Number of hits to follow under loads.")] = 1,
     out: Annotated[
-        Path | None, typer.Option(help="Folder for document, picture and animation, replaced if there.")
+        Path | None, typer.Option(help="Folder for document, picture and animation; earlier ones are replaced.")
     ] = None,
     jobs: options.Jobs = 1,
     fresh: options.Fresh = False,
@@ -137,7 +137,8 @@ def sweep(
     jobs: options.ManyJobs = None,
     scheduler: options.Scheduler = None,
     out: Annotated[
-        Path | None, typer.Option(help="Folder for the table (CSV, netCDF) and the figure, replaced if there.")
+        Path | None,
+        typer.Option(help="Folder for the table (CSV, netCDF) and the figure; earlier ones are replaced."),
     ] = None,
     fresh: options.Fresh = False,
     as_json: options.Json = False,

@@ -1,7 +1,7 @@
 "use strict";
 // A whole impact as numbers with bars: which runs, and what they say together (bent_beam/measure/numbers.py).
 const Answer = (() => {
-  const { abs, ceil, floor, max, min, round, sqrt } = Math;
+  const { abs, floor, max, min, round, sqrt } = Math;
   const { factor: FACTOR, ratios: RATIOS } = BARS; // of bentbeam bounce
   const DRAWN = [140, 92, 124, 80, 108, 132]; // elements of an ensemble; nodes rebound by 0, ½ and 1 of their velocity
   const NAMES = ["restitution", "impulse", "lastContact", "moment", "force"];
@@ -35,11 +35,12 @@ const Answer = (() => {
   /** What another run changes of the moment about the time of the largest, root of the mean square, beyond what it
       changes of the largest (comparison/bouncing.py): maxima of curves that differ may agree by chance. */
   function aboutItsTime({ course, steps, time, moment }, other) {
-    const changes = [], end = min((time + BARS.about) * steps, course.length - 1);
-    for (let k = max(ceil((time - BARS.about) * steps), 1); k <= end; k++) {
-      const place = k / steps * other.steps, i = floor(place), a = other.course[i], b = other.course[i + 1] ?? a;
-      if (abs(k / steps - other.time) > BARS.window) continue; // another moment is its largest
-      changes.push(a + (place - i) * (b - a) - course[k]);
+    const changes = [], middle = round(time * steps), span = round(BARS.about * steps), its = other.course;
+    const first = floor(RUNS.unresolved * steps) + 1, last = floor((its.length - 1) / other.steps * steps);
+    for (let k = max(middle - span, first); k <= min(middle + span, last, course.length - 1); k++) {
+      const t = k / steps, i = min(floor(t * other.steps), its.length - 2), between = t * other.steps - i;
+      if (abs(t - other.time) > BARS.window) continue; // another moment is its largest
+      changes.push((1 - between) * its[i] + between * its[i + 1] - course[k]);
     }
     const apart = changes.length ? Math.hypot(...changes) / sqrt(changes.length) : 0;
     return max(apart - abs(other.moment - moment), 0);

@@ -7,8 +7,8 @@ onmessage = ({ data: { id, problems, quick } }) => {
     const p = problems[index];
     try {
       found[index][name] = Solver.simulate(p, how);
-      const { frames, early, ...numbers } = found[index][name];
-      if (name !== "base") found[index][name] = numbers; // its motion is not shown
+      const { frames, early, course, ...numbers } = found[index][name];
+      if (name !== "base") found[index][name] = { ...numbers, course }; // its motion is not shown
       const whole = !quick && Object.keys(Answer.runs(p)).every((one) => found[index][one]);
       const run = name === "base" ? { frames, early, ...numbers } : null;
       postMessage({ id, index, run, numbers: Answer.numbers(p, found[index]), whole, quick });
