@@ -118,7 +118,7 @@ def test_gaps_are_compared_wherever_both_runs_have_the_beam_at_the_end_of_their_
     for place in (0.0, 0.4, 1.0):
         one = at(time, coarse, gap=np.outer(time, np.where(coarse == place, 0.3, 0.0)))
         assert apart(one, at(time, fine)) == pytest.approx(0.3)
-    runs = [at(times, fine, gap=np.outer(times, 1.0 + fine)) for times in ([0.0, 0.7, 1.0], [0.0, 0.4, 1.6])]
+    runs = [at(times, fine, gap=np.outer(times, 1.0 + fine)) for times in ([0.0, 0.7, 1.0], [0.0, 0.4, 1.2, 1.6])]
     assert apart(*runs) == pytest.approx(0.0, abs=1e-12)
 
 

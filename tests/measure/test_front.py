@@ -108,6 +108,14 @@ def test_the_largest_moment_of_the_first_instants_is_not_interpolated_from_befor
     assert instant(coarse, early).peak_moment > 0.9
 
 
+def test_a_force_that_is_largest_at_the_end_of_a_run_acts_where_the_wall_pushed_last() -> None:
+    time, x = np.linspace(0.0, 1.0, 11), np.array([0.0, 1.0])
+    given = np.column_stack([np.minimum(time, 0.9), np.maximum(time - 0.9, 0.0)])  # at 1 m in the last interval alone
+    peaks = dict.fromkeys(("peak_force", "peak_force_time", "peak_penetration", "peak_pressure"), ("time", time))
+    run = history_of(time, x, impulse=given, total_impulse=given.sum(axis=1))
+    assert wall_peaks(ImpactHistory.of(run.dataset.assign(peaks).assign_attrs(steps=10))).place == 1.0
+
+
 @pytest.mark.parametrize(("power", "least", "above"), [(1, 0.5, 0.75 * 0.005), (2, 1.0 - 1e-6, 0.005**2)])
 def test_a_step_at_the_top_of_a_force_stands_above_those_beside_it_by_h_at_a_kink_and_by_h_squared_if_smooth(
     power, least, above
