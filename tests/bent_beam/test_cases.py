@@ -68,6 +68,8 @@ def test_stress_of_a_rectangle_under_moment_and_tension():
     assert section.stress(1.0) == pytest.approx(6.0 / (0.03 * 0.002**2), rel=1e-13)  # 6M/(b h²)
     assert section.stress(0.0, -600.0) == pytest.approx(600.0 / (0.03 * 0.002), rel=1e-13)
     assert section.radius_of_gyration == pytest.approx(0.002 / math.sqrt(12.0), rel=1e-13)
+    sizes = {"area_of_section": section.area, "second_moment_of_area": section.second_moment, "section_height": 0.002}
+    assert case(section={"kind": "general", **sizes, **STEEL}).section.stress(1.0) == section.stress(1.0)
 
 
 def test_the_bow_by_its_sagitta_or_its_dogleg():

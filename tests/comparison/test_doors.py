@@ -132,6 +132,10 @@ def test_of_two_runs_of_the_whole_beam_both_halves_are_compared_and_drawn() -> N
     assert apart(*mirrored) == pytest.approx(1.0)  # on the left alone
     early, late = (full(times, x, total_impulse=times) for times in (time, time[1:]))
     assert apart(early, late, "total_impulse") == pytest.approx(0.0)  # where both are
+    pushed = full(np.array([0.0, 1.0, 1.4]), x, total_impulse=np.array([0.0, 0.0, 0.4]))  # after the other's end
+    for pair in ((pushed, free := full(time[:2], x)), (free, pushed)):
+        found = compare_histories(*pair)
+        assert found["end"]["total_impulse"] == [0.0, 0.0] and found["largest_difference"]["total_impulse"] is None
     energies = [full(time, part * x, kinetic_energy=part * (2.0 - time)) for part in (1.0, 0.5)]
     assert apart(*energies, "kinetic_energy") is None  # of unlike parts of a beam
     half = history_of(time, x[2:], kinetic_energy=2.0 - time)

@@ -94,6 +94,8 @@ def test_the_largest_until_a_time_between_saved_instants_is_that_of_the_steps_un
         for name in ("peak_moment", "peak_force", "peak_penetration", "peak_pressure"):
             assert getattr(found, name) == pytest.approx(getattr(exact, name), rel=2e-3), name
         assert max(found.peak_moment_time, found.peak_force_time) <= time
+        around = np.interp(time * np.linspace(0.9, 1.1, 9), coarse.time, coarse.array("total_impulse"))
+        assert found.impulse_around == pytest.approx(around)
     first = float(coarse.time[1])  # until then a force grows from nothing
     of_first = [instant(coarse, share * first).peak_force for share in (0.0, 0.5, 1.0)]
     assert of_first == pytest.approx([0.0, 0.5 * of_first[2], of_first[2]]) and of_first[2] > 0.0
