@@ -40,7 +40,7 @@ def history_of(
     still = np.zeros((time.size, x.size))
     energies = dict.fromkeys(("total_impulse", "kinetic_energy", "strain_energy"), 0.0 * time)
     values = {"gap": still, "impulse": still, **energies} | fields
-    places = dict.fromkeys(("impulse", "contact_position", "in_contact"), "contact")
+    places = dict.fromkeys(("impulse", "opposite_impulse", "contact_position", "in_contact"), "contact")
     return ImpactHistory.build(
         impact=impact or Impact.dimensionless(0.5), path="bare", symmetry=symmetry, settings={}, time=time, x=x,
         contact_x=x, fields={n: (("time", places.get(n, "x"))[: np.ndim(v)], v) for n, v in values.items()},

@@ -1,7 +1,8 @@
 """One problem in two systems of units: every number must change with its unit."""
 
+import json
 from collections.abc import Mapping
-from dataclasses import is_dataclass
+from dataclasses import asdict, is_dataclass, replace
 from functools import partial
 from typing import Any
 
@@ -32,6 +33,12 @@ from self_similar_fe.mesh import ExpandingMesh
 
 EXACT = {"kg": 2.0**-30, "m": 2.0**-20, "s": 2.0**10}  # even powers of two: their roots are exact, too
 POWERS = {"²": 2, "³": 3, "⁴": 4}
+OF_INSTANT = {"half_contact_length": "m", "element": "m", "reaction": "N", "impulse": "N s", "impulse_around": "N s"}
+OF_INSTANT |= {f"peak_{name}": unit for name, unit in zip(("force", "pressure", "penetration"), ("N", "N/m", "m"))}
+OF_INSTANT |= {"peak_moment": "N m", "moment_left_out": "N m", "peak_moment_place": "m", "peak_moment_time": "s"}
+OF_INSTANT |= {"peak_force_time": "s", "peak_force_place": "m", "peak_force_sharp": "N"}
+OF_HIT = {"begin": "s", "end": "s", "place": "m", "impulse": "N s", "energy": "J", "lost": "J", "moment": "N m"}
+OF_HIT |= dict.fromkeys(("before", "after"), "m/s")
 
 # 2.4 m long, T* = 1.76 s
 BEAM = Impact(2.0, 3.0, 2.4, 1.5, 1.25, acceleration=0.8, section_height=0.02, damping=2e-3)
@@ -113,6 +120,14 @@ def run(kind: str, base: Mapping[str, float] | None = None) -> ImpactHistory:
     if not isinstance(made, SelfSimilarFE):
         made = made.for_whole_beam(impact)
     return made.simulate(impact, end_time=end, save=60)
+
+
+def retold(history: ImpactHistory, base: Mapping[str, float]) -> ImpactHistory:
+    """The record of a run in other units."""
+    known = {n: v for n, v in history.variables.items() if n in UNITS}
+    told = {n: v._replace(values=v.values * factor(UNITS[n], base)) for n, v in known.items()}
+    impact = json.dumps(asdict(in_units(history.impact, base)))
+    return replace(history, variables={**history.variables, **told}, attrs={**history.attrs, "impact": impact})
 
 
 def agree(one: Any, other: Any, units: Mapping[str, str] = {}, base: Mapping[str, float] = EXACT) -> None:

@@ -6,7 +6,7 @@ from functools import cache
 
 import pytest
 from here import FUZZ, SEED
-from twins import EXACT, RUNS, agree, differences, in_units, run
+from twins import EXACT, OF_HIT, OF_INSTANT, RUNS, agree, differences, in_units, run
 
 from bent_beam import Impact, ImpactHistory
 from bent_beam.measure.balance import balance_of
@@ -21,12 +21,6 @@ from exudyn_models.contacts import Penalty, Rigid
 from exudyn_models.integrators import RK44
 from hermite_fe import HermiteFE
 
-OF_INSTANT = {"half_contact_length": "m", "element": "m", "reaction": "N", "impulse": "N s", "impulse_around": "N s"}
-OF_INSTANT |= {f"peak_{name}": unit for name, unit in zip(("force", "pressure", "penetration"), ("N", "N/m", "m"))}
-OF_INSTANT |= {"peak_moment": "N m", "moment_left_out": "N m", "peak_moment_place": "m", "peak_moment_time": "s"}
-OF_INSTANT |= {"peak_force_time": "s", "peak_force_place": "m", "peak_force_sharp": "N"}
-OF_HIT = {"begin": "s", "end": "s", "place": "m", "impulse": "N s", "energy": "J", "lost": "J", "moment": "N m"}
-OF_HIT |= dict.fromkeys(("before", "after"), "m/s")
 BASES = [EXACT]
 if FUZZ:
     RANDOM = random.Random(SEED)

@@ -7,6 +7,7 @@ from functools import cache
 import numpy as np
 import pytest
 from histories import history_of
+from twins import EXACT, agree, retold
 
 from bent_beam import Impact, ImpactHistory
 from bent_beam.measure.estimators import (
@@ -178,6 +179,15 @@ def test_a_uniform_reaction_is_taken_out_where_something_presses_the_zone():
         assert np.all(moments(with_impact(lifted, impact)).pressure == 0.0)
     stretched = Impact.dimensionless(0.5).replace(axial_force=0.2)
     assert moments(with_impact(pressed, stretched)).pressure[-50:] == pytest.approx(0.1, rel=0.05)
+
+
+def test_a_pressed_and_lifted_zone_is_the_same_in_other_units():
+    """Off the wall by a tenth of its place and of the time: at nine tenths of the front by 0.09 λ_c."""
+    run = synthetic(0.5, (1.0, 0.5, 0.0), 0.1).dataset
+    one = ImpactHistory.of(run.assign(gap=0.1 * run["time"] * run["x"]))
+    found = moments(one)
+    agree(found, moments(retold(one, EXACT)))
+    assert found.lift[-1] == pytest.approx(0.09 * found.front[-1], rel=0.02)
 
 
 def test_companions_that_differ_and_a_reaction_that_does_not_reach_the_load_widen_the_error_bars():

@@ -1,0 +1,46 @@
+"""What is read from a record does not depend on the units in which it is written, whatever the record says."""
+
+import numpy as np
+import pytest
+from histories import history_of
+from twins import BEAM, BETWEEN, EXACT, LOADED, OF_HIT, OF_INSTANT, SHEARED, SOFT, agree, retold
+
+from bent_beam.measure.balance import balance_of
+from bent_beam.measure.force_map import force_map
+from bent_beam.measure.instant import instant
+from bent_beam.measure.moments import moments, unresolved_at_end
+from bent_beam.measure.whole_impact import hits, whole_impact
+
+GROWS = ("impulse", "opposite_impulse", "total_impulse", "peak_force", "peak_penetration", "peak_pressure")
+GROWS += ("law_impulse", "work_of_loads", "contact_energy")
+STILL = ("gap", "velocity", "slope", "angle", "angular_velocity", "kinetic_energy", "strain_energy")
+STILL += ("largest_moment", "largest_moment_place", "largest_midspan_moment", "peak_force_time")
+
+
+@pytest.mark.parametrize("impact", [BEAM, LOADED, SHEARED.replace(axial_force=0.0), BETWEEN.replace(**SOFT)])
+def test_a_record_of_any_numbers_says_the_same_in_other_units(impact) -> None:
+    """The wall pushes until 0.6 of 4 T*, and rests twice, for a twentieth and a thousandth of T*."""
+    draw, full = np.random.default_rng(5), impact.off_centre
+    unit, half = impact.slow_time_scale, impact.half_length
+    time = unit * np.sort(np.concatenate([np.linspace(0.0, 4.0, 161), [0.301, 0.4005]]))
+    x = half * np.array([-1.0, -0.62, -0.3, 0.0, 0.17, 0.4, 0.71, 1.0])[0 if full else 3 :]
+    rests = (time > 0.6 * unit) | (np.abs(time / unit - 0.21) < 0.02) | (time == 0.301 * unit)
+    fields = {}
+    for name in (*STILL, *GROWS):
+        shape = (time.size, x.size) if name in (*STILL[:5], *GROWS[:2]) else (time.size,)
+        values = draw.uniform(-0.1 if name == "gap" else 0.1, 1.0, shape)
+        fields[name] = values if name in STILL else np.cumsum(values.T * ~rests, axis=-1).T
+    if impact.opposite_wall is None:
+        del fields["opposite_impulse"]
+    one = history_of(time, x, impact=impact, symmetry="full" if full else "half", **fields)
+    both, times = (one, retold(one, EXACT)), (0.5 * unit, 0.5 * unit * EXACT["s"])
+    agree(*(balance_of(each) for each in both))
+    agree(*(moments(each, uniform=True) for each in both))
+    unresolved = [unresolved_at_end(each, moments(each)) for each in both]
+    assert unresolved[0] == pytest.approx(unresolved[1], rel=1e-9)
+    agree(*(instant(each, at, first_spread=True) for each, at in zip(both, times)), OF_INSTANT)
+    agree(*(whole_impact(each) for each in both), {"supplied": "J"})
+    edges, kept = np.linspace(0.0, 1.0, 5) * half / impact.length_scale, np.array([0, 20, 60])
+    assert force_map(both[1], kept, edges) == pytest.approx(force_map(one, kept, edges), rel=1e-9)
+    for hit, its in zip(*map(hits, both), strict=True):
+        agree(hit, its, OF_HIT)
