@@ -7,7 +7,7 @@ from histories import history_of
 from bent_beam import Impact, ImpactHistory
 from bent_beam.measure.force_map import force_map, spread
 from bent_beam.measure.instant import instant
-from bent_beam.measure.moments import first_front, half_contact_length, jump_of_rim, lift, mean_reaction
+from bent_beam.measure.moments import first_front, half_contact_length, jump_of_rim, lift, mean_reaction, unresolved
 from bent_beam.measure.reduction import pull_of, wall_peaks
 from hermite_fe import HermiteFE
 from hermite_fe.integrators import MoreauJean
@@ -47,6 +47,8 @@ def test_a_front_that_does_not_go_as_the_root_of_time_is_between_where_it_was_an
     back = history_of(time, x, impulse=gained.cumsum(axis=0))
     front, bent = first_front(back, 0.5)
     assert front == pytest.approx(0.35, abs=2e-3) and bent == pytest.approx(0.6 - 0.5 * 0.475 - 0.35, abs=0.015)
+    assert instant(back, 0.5, first_spread=True).element == pytest.approx(0.5 * bent)  # and not an element, 1 mm
+    assert [unresolved(back, -1, front) for front in (2.9e-3, 3.1e-3)] == pytest.approx([1e-3, 0.0])  # it passed three
     ends = np.zeros((time.size, x.size))
     ends[:, 300], ends[:, 0] = np.minimum(time, 0.25), np.maximum(time - 0.25, 0.0)
     before, after = (1.0 + np.sqrt(0.9)) / 2.0, (1.0 + np.sqrt(1.1)) / 2.0
@@ -62,6 +64,14 @@ def test_a_rim_that_jumps_about_an_instant_is_known_to_its_jump_alone() -> None:
     history = history_of(time, x, impulse=impulse, total_impulse=2.0 * impulse.sum(axis=1))
     assert instant(history, 0.7).element == pytest.approx(0.4)
     assert [instant(history, time).element for time in (0.5, 0.73, 0.85)] == pytest.approx([0.1] * 3)
+
+
+def test_half_a_contact_is_as_long_as_it_reaches_from_the_first_touch() -> None:
+    """0.4 m to the right of it, where elements are short, and 0.3 m to the left; a round-off beyond is no push."""
+    time, x = np.linspace(0.0, 1.0, 11), np.array([-1.0, -0.1, 0.2, 0.5, 0.6, 1.0])
+    impact, impulse = Impact.whole_beam(0.5).replace(first_touch=0.2), np.outer(time, [1e-9, 1.0, 1.0, 0.0, 1e-7, 0.0])
+    found = instant(history_of(time, x, impact=impact, symmetry="full", impulse=impulse), 0.5)
+    assert (found.half_contact_length, found.element) == pytest.approx((0.4, 0.1))
 
 
 def test_the_map_of_forces_holds_the_impulse_and_a_pull_is_a_share_of_a_push_in_any_unit() -> None:
