@@ -31,6 +31,8 @@ def test_a_run_keeps_its_momentum_and_a_falsified_impulse_energy_or_gap_shows_in
     more = balance_of(ImpactHistory.of(data.assign(total_impulse=1.1 * data["total_impulse"])))
     assert more.momentum == pytest.approx(1.0 / 11.0, abs=1e-3) and more.points == pytest.approx(-1.0 / 11.0)
     assert "the residual is 9.1 % of the impulse" in more.warnings[0]
+    late = data.assign(total_impulse=data["total_impulse"].where(data["time"] > 0.05, 0.0))  # before, it does not count
+    assert balance_of(ImpactHistory.of(late)).momentum == sound.momentum
     second = data.assign(opposite_impulse=0.1 * data["impulse"], total_impulse=0.9 * data["total_impulse"])
     assert balance_of(ImpactHistory.of(second)).points == pytest.approx(0.0, abs=1e-9)
     less = balance_of(ImpactHistory.of(data.assign(kinetic_energy=0.97 * data["kinetic_energy"])))

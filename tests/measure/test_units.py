@@ -6,7 +6,6 @@ from histories import history_of
 from twins import BEAM, BETWEEN, EXACT, LOADED, OF_HIT, OF_INSTANT, SHEARED, SOFT, agree, retold
 
 from bent_beam.measure.balance import balance_of
-from bent_beam.measure.force_map import force_map
 from bent_beam.measure.instant import instant
 from bent_beam.measure.moments import moments, unresolved_at_end
 from bent_beam.measure.whole_impact import hits, whole_impact
@@ -21,9 +20,9 @@ STILL += ("largest_moment", "largest_moment_place", "largest_midspan_moment", "p
 def test_a_record_of_any_numbers_says_the_same_in_other_units(impact) -> None:
     """The wall pushes until 0.6 of 4 T*, and rests twice, for 0.05 T* and for 0.001 T*, which does not count."""
     draw, full = np.random.default_rng(5), impact.off_centre
-    unit, half = impact.slow_time_scale, impact.half_length
-    time = unit * np.sort(np.concatenate([np.linspace(0.0, 4.0, 161), [0.301, 0.4005]]))
-    x = half * np.array([-1.0, -0.62, -0.3, 0.0, 0.17, 0.4, 0.71, 1.0])[0 if full else 3 :]
+    unit = impact.slow_time_scale
+    time = unit * np.sort(np.concatenate([np.linspace(0.0, 4.0, 161), [1e-4, 1e-3, 0.301]]))
+    x = impact.half_length * np.array([-1.0, -0.62, -0.3, 0.0, 0.17, 0.4, 0.71, 1.0])[0 if full else 3 :]
     rests = (time > 0.6 * unit) | (np.abs(time / unit - 0.21) < 0.02) | (time == 0.301 * unit)
     fields = {}
     for name in (*STILL, *GROWS):
@@ -41,7 +40,5 @@ def test_a_record_of_any_numbers_says_the_same_in_other_units(impact) -> None:
     agree(*(instant(each, at, first_spread=True) for each, at in zip(both, times)), OF_INSTANT)
     agree(*(whole_impact(each) for each in both), {"supplied": "J"})
     assert len(whole_impact(one).contacts) == 2
-    edges, kept = np.linspace(0.0, 1.0, 5) * half / impact.length_scale, np.array([0, 20, 60])
-    assert force_map(both[1], kept, edges) == pytest.approx(force_map(one, kept, edges), rel=1e-9)
     for hit, its in zip(*map(hits, both), strict=True):
         agree(hit, its, OF_HIT)
