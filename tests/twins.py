@@ -124,10 +124,10 @@ def run(kind: str, base: Mapping[str, float] | None = None) -> ImpactHistory:
 
 def retold(history: ImpactHistory, base: Mapping[str, float]) -> ImpactHistory:
     """The record of a run in other units."""
-    known = {n: v for n, v in history.variables.items() if n in UNITS}
-    told = {n: v._replace(values=v.values * factor(UNITS[n], base)) for n, v in known.items()}
+    parts = history.variables.items()
+    told = {n: v._replace(values=v.values * factor(UNITS[n], base)) if n in UNITS else v for n, v in parts}
     impact = json.dumps(asdict(in_units(history.impact, base)))
-    return replace(history, variables={**history.variables, **told}, attrs={**history.attrs, "impact": impact})
+    return replace(history, variables=told, attrs={**history.attrs, "impact": impact})
 
 
 def agree(one: Any, other: Any, units: Mapping[str, str] = {}, base: Mapping[str, float] = EXACT) -> None:

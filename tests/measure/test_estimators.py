@@ -117,9 +117,8 @@ def test_a_companion_that_says_the_same_leaves_what_one_run_tells():
         alone = getattr(leading_order(run, unresolved=0.01), name)
         drift = alone.parts["drift"]
         assert known.parts["drift"] == pytest.approx(FACTOR / 4.0 * drift)  # alone it has to tell of the mesh, too
-        assert (alone.parts["least"], alone.parts["element"]) == pytest.approx(
-            (1e-4 * known.value, 0.01 / np.sqrt(0.1) * (name == "lambda0"))
-        )
+        assert alone.parts["least"] == pytest.approx(1e-4 * known.value)
+        assert alone.parts["element"] == pytest.approx(0.01 / np.sqrt(0.1) * (name == "lambda0"))
         assert known.bar <= drift + sum(known.parts[part] for part in ("least", "element", "lift"))
         assert known.bar < getattr(apart, name).bar
 
@@ -205,10 +204,6 @@ def test_companions_that_differ_and_a_reaction_that_does_not_reach_the_load_wide
     wider = first_order(runs, base, leading, companions=[other, found])
     assert (wider.r1.value, wider.lambda1) == (found.r1.value, found.lambda1)
     assert wider.r1.bar == pytest.approx(found.r1.bar + FACTOR * 0.3)
-    swings = 0.2 * np.where(np.arange(200) % 2, 1.0, -1.0)  # of the load, about its mean
-    uneven = first_order([(e, dataclasses.replace(run, pressure=e * (1.5 + swings))) for e, run in runs], base, leading)
-    missing = MISSING_FIRST * 0.2 * leading.lambda0.known / SIDE
-    assert uneven.r1.parts["uniform_reaction"] == pytest.approx(missing, rel=1e-3)
     full, open_zone = (first_order(runs, base, leading, pressure=pressure) for pressure in (1.5, 2.0))
     assert open_zone.r1.value == full.r1.value
     assert open_zone.r1.bar > 0.5 and open_zone.lambda1.bar > 0.25 > 5.0 * full.lambda1.bar

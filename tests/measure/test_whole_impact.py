@@ -101,7 +101,9 @@ def test_what_a_hit_loses_is_what_loads_do_not_give_and_it_is_where_it_pushes() 
     (hit,) = hits(run)
     assert (hit.energy, hit.lost) == pytest.approx((1.0 + 0.2 - 0.15, 0.15))
     assert hit.place == pytest.approx((0.5 + 3.0 * 1.0) / 4.0)
-    assert whole_impact(run).supplied == pytest.approx(1.0 + 0.4 * 0.495)
+    found, given = whole_impact(run), 1.0 + 0.4 * 0.495
+    assert (found.supplied, found.supplied_rate) == pytest.approx((given, 0.4 / given))
+    assert found.energy_gain == pytest.approx(0.0, abs=1e-12)
 
 
 def test_the_restitution_of_a_held_beam_is_of_its_mean_velocity_when_the_push_ends() -> None:
@@ -140,7 +142,7 @@ def test_hits_are_contacts_whose_gaps_are_shorter_than_a_period_of_the_first_mod
     for later, gone in ((3.0, True), (1.0, False)):  # another hit tells that the first is over
         run = pushed_until(0.5, last=later + 0.6, again=later).dataset.assign_attrs(impact=drawn)
         known = whole_impact(ImpactHistory.of(run))
-        assert (known.left, known.separations, known.restitution is not None) == (False, 1, gone)
+        assert (known.left, known.separations, known.again, known.restitution is not None) == (False, 1, gone, gone)
     soon = whole_impact(pushed_until(0.5, last=4.0, again=1.0))
     assert np.array(soon.contacts) == pytest.approx(np.array([[0.0, 0.5], [1.0, 1.5]]), abs=2.0 * soon.within)
     assert soon.restitution == pytest.approx(1.9)
