@@ -110,8 +110,7 @@ def test_a_push_is_small_beside_the_largest_one_however_small_that_is() -> None:
     time, x, unit = np.linspace(0.0, 4.0, 41), np.linspace(0.0, 1.0, 3), 1e-9
     early = (time < 1.95)[:, None]
     gap = np.outer(time, [0.0, 0.1, 0.2]) + early * [-0.5, 0.5, 0.0]
-    impulse = np.outer(time, [unit, unit, 1e-9 * unit])
-    impulse[:, 2] -= 0.5 * unit * np.minimum(time, 1.9)
+    impulse = unit * np.column_stack([time, time, 1e-9 * time - 0.5 * np.minimum(time, 1.9)])
     found = balance_of(history_of(time, x, impact=WHOLE, gap=gap, impulse=impulse))
     assert (found.gap_of_push, found.penetration, found.pull) == (pytest.approx(0.1), 0.0, 0.0)
 
