@@ -2,6 +2,7 @@
 
 import json
 import random
+import re
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
@@ -15,6 +16,7 @@ from histories import history_of
 
 from bent_beam import Impact, ImpactHistory
 from bent_beam.cases import Case, load_case, read_toml
+from bent_beam.hysteresis import first_mode
 from bent_beam.measure.force_map import force_map
 from bent_beam.meshes import UniformMesh
 from bent_beam.versions import versions
@@ -23,7 +25,7 @@ from comparison.bounced import scales
 from comparison.compare import compare_histories, rerun_history
 from comparison.doors import Swept
 from comparison.predicting import predict_case
-from comparison.readable import unit_for
+from comparison.readable import milliseconds, unit_for
 from comparison.simulating import simulate_case
 from comparison.sweeping import Row
 from comparison.texts import run_text
@@ -120,6 +122,10 @@ def test_gaps_are_compared_wherever_both_runs_have_the_beam_at_the_end_of_their_
         assert apart(one, at(time, fine)) == pytest.approx(0.3)
     runs = [at(times, fine, gap=np.outer(times, 1.0 + fine)) for times in ([0.0, 0.7, 1.0], [0.0, 0.4, 1.2, 1.6])]
     assert apart(*runs) == pytest.approx(0.0, abs=1e-12)
+    curved = Impact.whole_beam(0.5).replace(wall_curvature=0.4, first_touch=0.2)  # a gap of x³ is one cubic
+    runs = [history_of([0.0, 1.0], x, impact=curved, gap=np.outer([0.0, 1.0], x**3),
+                       slope=np.outer([1.0, 1.0], -3.0 * x**2 - 0.4 * (x - 0.2))) for x in (fine, coarse)]  # fmt: skip
+    assert apart(*runs) == pytest.approx(0.0, abs=1e-12)
 
 
 def test_of_two_runs_of_the_whole_beam_both_halves_are_compared_and_drawn() -> None:
@@ -171,10 +177,15 @@ def test_twenty_beams_of_a_seed_are_answered_alike_at_every_door() -> None:
 
 def test_a_wall_that_gives_way_and_is_not_yet_touched_has_no_place_of_its_force() -> None:
     case = load_case(CASES / "tube_between_plates.toml", ["wall.clearance=2e-4", "wall.opposite=2e-4"])
-    said = run_text(simulate_case(case, "hermite", until=3e-4, error_bars="drift", save=20).to_dict())
+    document = simulate_case(case, "hermite", until=3e-4, error_bars="drift", save=20).to_dict()
+    said = run_text(document)
     assert "largest force  " in said and "nan" not in said.lower() and "None" not in said
     assert "It passes its rest position at" in said and "arrives" not in said
     assert "0.3 ms after it passes its rest position" in said and "has not reached its wall, 0.0002 m away" in said
+    hit = {"peak_force_wall": "opposite", "peak_force_time": 0.0125, "peak_force_place": 0.25, "numerical_loss": 0.031}
+    said = run_text(document | hit | {"time": 0.02})
+    assert "moment, until 20 ms" in said and "on the opposite wall, at 12.5 ms and 0.25 m" in said
+    assert re.search(r"lost to steps and mesh +3\.1 +% of", said)
 
 
 def test_a_case_may_be_asked_by_its_tables_and_answers_be_written_to_a_folder_by_name(tmp_path: Path) -> None:
@@ -200,14 +211,21 @@ def test_energies_in_joules_are_no_surer_than_the_work_of_the_loads_and_a_place_
         assert energy.bar == pytest.approx(supplied * (share.bar + abs(late) * abs(share.value)))
         assert sum(energy.parts.values()) == pytest.approx(energy.bar)
     assert found.in_si["peak_moment_place"].bar >= 0.1 * (1.0 - 1e-9)
+    for name, record in (("impulse", "total_impulse"), ("peak_force", "peak_force")):  # of the run, in SI
+        assert found.in_si[name].known == pytest.approx(found.history.array(record)[-1])
+    apart = found.span[1] - found.in_si["last_contact"].known
+    assert apart == pytest.approx(
+        1.0 / first_mode(case.impact.replace(shear_stiffness=None, rotary_inertia=0.0)), rel=1e-3
+    )
 
 
 @pytest.mark.parametrize(
     ("unit", "value", "written"),
     [
-        ("m", 5e-3, (1e3, "mm")), ("m", 0.05, (1.0, "m")), ("N/m", 500.0, (1e-3, "kN/m")), ("N", 50.0, (1.0, "N")),
+        ("m", 9e-3, (1e3, "mm")), ("m", 0.011, (1.0, "m")), ("N/m", 110.0, (1e-3, "kN/m")), ("N", 90.0, (1.0, "N")),
         ("N s", 500.0, (1.0, "N s")), ("Pa", 1.0, (1e-6, "MPa")), ("s", 1.0, (1e3, "ms")), ("m/s", 1e-3, (1.0, "m/s")),
     ],
 )  # fmt: skip
 def test_a_number_is_written_in_the_unit_that_suits_its_size(unit: str, value: float, written: Any) -> None:
     assert unit_for(unit, [None, -value]) == written
+    assert [milliseconds(time) for time in (0.01234, 1.2, 12.0)] == ["12.3 ms", "1200 ms", "12000 ms"]

@@ -9,6 +9,7 @@ import pytest
 from histories import history_of, pushed_until
 
 from bent_beam import Impact
+from bent_beam.hysteresis import first_mode
 from bent_beam.measure.numbers import FACTOR, Band, Number
 from bent_beam.measure.reduction import peak_moment
 from bent_beam.meshes import UniformMesh
@@ -18,6 +19,7 @@ from comparison.doubts import energy_residual, loss_warnings, numerical_loss, to
 from comparison.predicting import OF_INSTANT, instant_numbers, instants_reading
 from comparison.questions import Question
 from comparison.runs import Run, Runs, numbers_of
+from comparison.texts import bounce_text
 from hermite_fe import HermiteFE
 from hermite_fe.contacts import NodeContact
 from hermite_fe.integrators import MoreauJean
@@ -51,7 +53,7 @@ def test_companions_that_agree_better_than_whole_beams_can_leave_a_ten_thousandt
     assert numbers_of(made, ["impulse"])["impulse"].bar == pytest.approx(5.0 * least)
     slow = Impact(1.0, 1e6, 2.0, 0.5, 1e-3, damping=1e3 * damping)  # the same, a thousand times slower
     question = dataclasses.replace(made.question, impact=slow, until=until and 1e3 * until)
-    assert slow.slow_time_scale == 1e3
+    assert slow.slow_time_scale == 1e3 and question.late == made.question.late
     again = numbers_of(dataclasses.replace(made, question=question), ["impulse"])["impulse"]
     assert again.bar == pytest.approx(5.0 * least)
 
@@ -83,6 +85,12 @@ def test_what_a_run_and_its_companion_share_stays_in_the_bar() -> None:
     early = instant_numbers(runs(TIME, TIME, until=EARLY))
     assert early["impulse"].bar == early["peak_moment"].bar == pytest.approx(2e-3)
     assert instant_numbers(runs(TIME, TIME))["peak_moment"].bar == 0.0
+    three = TIME | {name: 3.0 for name in OF_INSTANT} | {"lift": 0.04}  # they are shares of the number
+    light, early = (instant_numbers(runs(three, three, damping=2e-4, until=until)) for until in (LATE, EARLY))
+    assert light["peak_moment"].bar == pytest.approx(3e-2) and early["impulse"].parts["grid_viscosity"] == 6e-3
+    point = runs(TIME, TIME, damping=2e-4)
+    point = dataclasses.replace(point, question=dataclasses.replace(point.question, impact=problem(2.0, 2e-4)))
+    assert instant_numbers(point)["peak_moment"].bar == 0.0, "single nodes chatter on a zone alone"
     assert instant_numbers(runs(TIME, TIME, damping=2e-4))["peak_moment"].bar == pytest.approx(1e-2)
     assert instant_numbers(runs(TIME, TIME, TIME, damping=0.0))["peak_moment"].bar == pytest.approx(1e-2)
 
@@ -129,6 +137,9 @@ def test_a_single_run_that_ends_at_the_wall_is_told_with_the_numbers_that_it_ent
     found = Bounce(case_of(made.question.impact), whole_numbers(made), made)
     assert found.outcome.left and not found.left and found.to_dict()["left"] is False
     assert any("not left the wall" in warning for warning in found.warnings)
+    slow = Impact(1.0, 1e6, 2.0, 2.0, 1e-3, damping=0.0 if band else 1.0, acceleration=1e-6)  # T* is 1000 s
+    held = Bounce(case_of(slow), found.numbers, dataclasses.replace(made, question=Question(slow, COARSE, band=band)))
+    assert any(f"flights shorter than {1e3 / first_mode(slow):.3g} ms" in warning for warning in held.warnings)
     gone = ("restitution", "impulse", "last_contact")  # of the hit, which is not over
     assert [found.numbers[name].value for name in gone] == [None] * 3 and found.numbers["push"] != Number()
 
@@ -222,3 +233,17 @@ def test_the_companion_of_nodes_that_rebound_has_nodes_that_do_not() -> None:
     rebounding = dataclasses.replace(COARSE, integrator=MoreauJean(theta=0.5), contact=NodeContact(restitution=0.5))
     (other,) = rebounding.cross_checks(impact).values()
     assert isinstance(other.contact, NodeContact) and other.contact.restitution == 0.0
+
+
+def test_what_is_told_beside_the_numbers_is_what_the_document_holds() -> None:
+    made = runs(*(whole_reading(pushed_until(0.5)) for _ in range(2)), until=0.0)
+    made = dataclasses.replace(made, question=Question(problem(2.0, 1e-3), COARSE))
+    document = Bounce(case_of(made.question.impact), whole_numbers(made), made).to_dict()
+    state = {"momentum_residual": 1e-3, "energy_of_state": 2e-3, "gap_of_push": 3e-3, "penetration": 4e-3, "pull": 5e-3}
+    loss = {"loss": 0.2, "lowest_frequency": 10.0, "highest_frequency": 200.0, "deviation": 0.03}
+    document |= state | {"hysteretic_loss": loss, "span": [0.0, 0.05], "si": document["si"] | {"time_unit": 0.03}}
+    said = bounce_text(document, verbose=True)
+    for part in ("from 0 to 50 ms", "momentum off by 0.001 of the impulse, energy by 0.002 at", "a push 0.003 V0 t",
+                 "deepest node 0.004 V0 t, largest pull 0.005 of", "hysteretic loss 0.2 within 3 % from 10 to 200 Hz",
+                 "T* = 0.03 s", "at least 0.002 T* (6e-05 s)"):  # fmt: skip
+        assert part in said
