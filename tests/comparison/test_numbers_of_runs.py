@@ -85,11 +85,10 @@ def test_what_a_run_and_its_companion_share_stays_in_the_bar() -> None:
     early = instant_numbers(runs(TIME, TIME, until=EARLY))
     assert early["impulse"].bar == early["peak_moment"].bar == pytest.approx(2e-3)
     assert instant_numbers(runs(TIME, TIME))["peak_moment"].bar == 0.0
-    three = TIME | {name: 3.0 for name in OF_INSTANT} | {"lift": 0.04}  # they are shares of the number
+    three = TIME | {name: 3.0 for name in OF_INSTANT}  # they are shares of the number
     light, early = (instant_numbers(runs(three, three, damping=2e-4, until=until)) for until in (LATE, EARLY))
     assert light["peak_moment"].bar == pytest.approx(3e-2) and early["impulse"].parts["grid_viscosity"] == 6e-3
-    point = runs(TIME, TIME, damping=2e-4)
-    point = dataclasses.replace(point, question=dataclasses.replace(point.question, impact=problem(2.0, 2e-4)))
+    point = dataclasses.replace(runs(TIME, TIME), question=Question(problem(2.0, 2e-4), COARSE, LATE))
     assert instant_numbers(point)["peak_moment"].bar == 0.0, "single nodes chatter on a zone alone"
     assert instant_numbers(runs(TIME, TIME, damping=2e-4))["peak_moment"].bar == pytest.approx(1e-2)
     assert instant_numbers(runs(TIME, TIME, TIME, damping=0.0))["peak_moment"].bar == pytest.approx(1e-2)
@@ -228,6 +227,11 @@ def test_few_saved_instants_hold_the_time_that_is_asked_for() -> None:
         assert np.abs(history.time - 0.05).min() < 5e-4 and history.time[-1] == pytest.approx(0.055, abs=5e-4)
 
 
+def test_the_companion_that_absorbs_no_waves_has_ten_elements_in_the_root_of_time() -> None:
+    _, other = Question(problem(0.5, 0.0), HermiteFE(), 1e-4).companions()["waves_absorbed"]
+    assert other.mesh.element_length == pytest.approx(0.1 * 1e-4**0.5)
+
+
 def test_the_companion_of_nodes_that_rebound_has_nodes_that_do_not() -> None:
     impact = problem(0.5, 1e-3)
     rebounding = dataclasses.replace(COARSE, integrator=MoreauJean(theta=0.5), contact=NodeContact(restitution=0.5))
@@ -236,8 +240,8 @@ def test_the_companion_of_nodes_that_rebound_has_nodes_that_do_not() -> None:
 
 
 def test_what_is_told_beside_the_numbers_is_what_the_document_holds() -> None:
-    made = runs(*(whole_reading(pushed_until(0.5)) for _ in range(2)), until=0.0)
-    made = dataclasses.replace(made, question=Question(problem(2.0, 1e-3), COARSE))
+    read = whole_reading(pushed_until(0.5))
+    made = dataclasses.replace(runs(read, read), question=Question(problem(2.0, 1e-3), COARSE))
     document = Bounce(case_of(made.question.impact), whole_numbers(made), made).to_dict()
     state = {"momentum_residual": 1e-3, "energy_of_state": 2e-3, "gap_of_push": 3e-3, "penetration": 4e-3, "pull": 5e-3}
     loss = {"loss": 0.2, "lowest_frequency": 10.0, "highest_frequency": 200.0, "deviation": 0.03}

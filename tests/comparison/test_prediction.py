@@ -173,7 +173,7 @@ def test_a_gate_that_touches_all_at_once_mistaken_units_and_a_hole_that_bends_on
     bar = Impact(2.0, 1.0, 2.0, 0.1, 1.0)
     percent = [bar.replace(damping=ratio / (np.pi * first_mode(bar))) for ratio in (0.48, 0.52)]
     assert not doubts(percent[0], None) and "ratio of 0.52: is it meant in percent?" in doubts(percent[1], None)[0]
-    thick, thin = (bar.replace(shear_stiffness=1e3, rotary_inertia=(2.0 / radii) ** 2) for radii in (14.5, 15.5))
+    thick, thin = (bar.replace(shear_stiffness=1e3, rotary_inertia=(2.0 / radii) ** 2) for radii in (14.0, 15.5))
     assert not doubts(thin, None) and "only 14 radii of gyration long" in doubts(thick, None)[0]
     soft = Impact(2.0, 1.0, 2.0, 0.1, 1.0, damping=0.1, wall_stiffness=8.0, wall_damping=80.0)
     assert "wall's damping ratio is 14.1, beyond" in doubts(soft, None)[0]
@@ -219,6 +219,9 @@ def test_theory_only_simulates_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     assert one["impulse"] < other["impulse"] and 3.5 < other["half_contact_length"] < 4.0 and other["valid"]
     assert found["agreement"] is None and "simulation" not in one
     assert found["whole_impact"] is None
+    tube = load_case(CASES / "tube.toml")
+    late = predict_case(tube, [1.01 * LATEST * tube.impact.slow_time_scale], whole=False)  # T* is not a second
+    assert late.simulated == [{}] and "are not simulated here" in " ".join(late.warnings)
     assert "yields at: 931" in command("predict", PIPE, "--theory-only")[1]
     mistaken = ("--set", "hermite.integrator.kind=nonsense")
     assert "hermite.integrator.kind" in refused("predict", PIPE, "--theory-only", *mistaken)
