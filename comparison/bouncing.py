@@ -137,7 +137,9 @@ def whole_numbers(made: Runs) -> dict[str, Number | Band]:
     known["peak_moment"] = unseen_of_moment(made)
     if not made.question.band:
         known["peak_moment"]["about_its_time"] = _moment_about(made)
-        known["last_contact"]["returns"] = _may_return(made, numbers_of(made, ("restitution",), known)["restitution"])
+        restitution = numbers_of(made, ("restitution",), known)["restitution"]
+        known["last_contact"]["returns"] = _may_return(made, restitution)
+        known["last_contact"]["graze"] = _may_be_none(reading, restitution)
     found = dict(bands_of(made, names) if made.question.band else numbers_of(made, names, known))
     if not all(run.reading["left"] for run in made.every):
         found |= {name: Number() for name in FINAL}
@@ -180,6 +182,14 @@ def _may_return(made: Runs, restitution: Number) -> float:
         return 0.0
     near = [time for time, speed in made.run.reading["returns"] if speed <= RETURNS * (restitution.bar or 0.0)]
     return max(near, default=last) - last
+
+
+def _may_be_none(reading: Mapping[str, Any], restitution: Number) -> float:
+    """How much earlier the last contact may be, T*: its last part may be none where what that changes of the velocity
+    is within the bar of the restitution."""
+    contacts = reading["contacts"]
+    graze = len(contacts) > 1 and reading["last_push"] <= (restitution.bar or 0.0)
+    return float(contacts[-1][1] - contacts[-2][1]) if graze else 0.0
 
 
 def follow_hits(impact: Impact, method: Method, count: int, *, first: ImpactHistory) -> list[Hit]:

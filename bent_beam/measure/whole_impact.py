@@ -45,8 +45,8 @@ class WholeImpact:
         the energy change in that.
     until : end of the span that the largest moment and force are of.
     contacts : begin and end of each contact, separations shorter than the shortest ignored; the last ends at the last
-        contact. returns : when the beam is nearest to the wall again, within a period after the last contact, and the
-        mean velocity since then by which it misses the wall, V₀.
+        contact, last_push is its impulse over mV₀, a velocity over V₀. returns : when the beam is nearest to the wall
+        again, within a period after the last contact, and the mean velocity since then by which it misses the wall, V₀.
     peak_moment_place : x/ℓ, of a symmetric impact |x|/ℓ. moment_left_out : what the moment may have been at first
         (:func:`bent_beam.measure.reduction.moment_left_out`).
     translation, vibration, dissipated : shares of the initial energy and the work of the loads, altogether one; the
@@ -90,6 +90,7 @@ class WholeImpact:
     drift: dict[str, float]
     until: float
     contacts: tuple[tuple[float, float], ...]
+    last_push: float
     returns: tuple[tuple[float, float], ...]
     energy_defect: float
     energy_gain: float
@@ -167,6 +168,7 @@ def whole_impact(history: ImpactHistory) -> WholeImpact:
         drift={name: part * abs(ends[name] - begins[name]) for name in found},
         until=until / unit,
         contacts=tuple((float(time[i]) / unit, 0.5 * float(time[j - 1] + time[j]) / unit) for i, j, _ in hit),
+        last_push=float(total[end] - total[hit[-1][0]]) / (mass * speed),
         returns=_returns(history, end),
         energy_defect=abs(history.energy_budget()["defect"]) / initial,
         energy_gain=float(np.max(np.diff(energy + history.energy("contact_energy") - work), initial=0.0)) / initial,

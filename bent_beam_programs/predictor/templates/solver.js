@@ -90,8 +90,8 @@ const Solver = (() => {
     const m = model(p, elements, 1 / steps), { n, l, h, size, q, v, x, share, impulse } = m;
     const step = p.wall ? Contact.elastic({ ...m, wall: p.wall }) : Contact.rigid({ ...m, atPosition, rebound });
     const moment = new Float64Array(n), since = new Float64Array(n), scratch = new Float64Array(size);
-    const found = { impulse: 0, lastContact: 0, begin: 0, apart: Infinity, moment: 0, place: 0, time: 0, force: 0,
-      pressed: 0, left: false };
+    const found = { impulse: 0, lastContact: 0, begin: 0, apart: Infinity, earlier: 0, moment: 0, place: 0, time: 0,
+      force: 0, pressed: 0, left: false };
     const early = [[0, 0]], frames = [], course = [abs(p.before)]; // course: largest moment at each step
     let first = null, worst = abs(p.before);
     const keep = (t, span) => {
@@ -114,7 +114,7 @@ const Solver = (() => {
       if (pushed > 1e-9 * found.impulse) {
         const apart = t - found.lastContact;
         if (apart > PERIOD && found.impulse) first ??= { ...found };
-        if (apart > SEPARATION) Object.assign(found, { begin: t, apart });
+        if (apart > SEPARATION) Object.assign(found, { begin: t, apart, earlier: found.impulse });
         found.lastContact = t;
       }
       found.impulse += pushed;
@@ -135,7 +135,8 @@ const Solver = (() => {
     const end = frames[frames.length - 1].t, until = min(found.lastContact + PERIOD, end);
     const late = { moment: found.time > end - PERIOD, force: found.pressed > end - PERIOD };
     const lastContact = over ? hit.lastContact : null;
-    const ends = { begin: hit.begin, apart: hit.apart, lastContact, returns: nearest(frames, m.gap, hit.lastContact) };
+    const { begin, apart, earlier } = hit; // of the last contact, and the impulse before it
+    const ends = { begin, apart, earlier, lastContact, returns: nearest(frames, m.gap, hit.lastContact) };
     return { ...found, ...ends, impulse: over ? hit.impulse : null, restitution, late, until, frames, early, course, steps };
   }
 
