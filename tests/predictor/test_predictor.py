@@ -310,6 +310,21 @@ def test_maxima_that_agree_by_chance_have_a_bar_for_what_is_about_them() -> None
 
 
 @needs_node
+def test_the_last_part_of_a_contact_may_be_none_on_the_page_too() -> None:
+    """As in ``bounce`` (comparison/test_numbers_of_runs.py): it begins at 0.5 T*, 0.1 T* after the part before it, and
+    gives half of 0.08 or of 0.12 μℓV₀; the restitution has a bar of two changes of 0.02."""
+    bars = """given.map((push) => {
+        const p = {...Beam.problem(Beam.impact(Beam.START), 0.01)}, runs = {};
+        for (const name in Answer.runs(p)) runs[name] = {
+            restitution: name === "base" ? 0.5 : 0.52, impulse: 3, earlier: 3 - push, lastContact: 0.6, begin: 0.5,
+            apart: 0.1, returns: [], late: {}, force: 0, moment: 2, time: 0.3, steps: 1000, course: [2, 2] };
+        const { restitution, lastContact } = Answer.numbers(p, runs);
+        return [restitution.bar, lastContact.bar]; })"""
+    (bar, wide), (_, narrow) = evaluated(bars, [0.08, 0.12])
+    assert bar == pytest.approx(2.0 * FACTOR * 0.02) and wide - narrow == pytest.approx(0.2)
+
+
+@needs_node
 @pytest.mark.verify
 def test_twenty_random_beams_bounce_on_the_page_as_in_bounce() -> None:
     seed = int(np.random.default_rng().integers(10**6))
