@@ -9,8 +9,9 @@ own (``imposes``: closed is what pushes), that decides, and the states are writt
 - all connectors follow their gaps at once. When ``BLOCK`` repetitions have not made fewer contradict theirs, one at a
   time is switched until fewer do: the one with the largest force, and after ``PERSISTENCE`` repetitions more the last
   (Murty's rule; as in the Hermite path: Júdice & Pires 1994, Comput. Oper. Res. 21, 587);
-- a state comes back that this step had already tried: none is consistent. Of the states that return, the one that
-  contradicts itself least is accepted, and counted;
+- a state comes back that this step had already tried: the next of these rules is taken at once. Where it comes back
+  under Murty's, none is consistent: of the states that return, the one that contradicts itself least is accepted, and
+  counted;
 - the repetitions run out before: the step is not solved.
 """
 
@@ -106,7 +107,10 @@ class Settling:
             self._doubtful = doubtful if self._doubtful is None else doubtful | self._doubtful
             self._tried, self._cycling = {}, False
         state = closed[self._doubtful].tobytes()
-        if state in self._tried:
+        if state in self._tried and self._patience > -PERSISTENCE:  # such rules may go in circles past what is sought
+            self._patience = 0 if self._patience > 0 else -PERSISTENCE
+            self._tried = {}
+        elif state in self._tried:
             while not self._cycling and next(iter(self._tried)) != state:
                 del self._tried[next(iter(self._tried))]  # what led into the cycle, never to return
             self._cycling = True

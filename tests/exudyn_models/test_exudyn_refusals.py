@@ -166,3 +166,16 @@ def test_a_stiff_chain_pressed_at_random_settles():
             contact.solve()
         assert settling.unsettled == settling.cycles == 0
         assert contact.forces.min() >= -1e-9 and contact.gaps.min() >= -1e-9
+
+
+def test_exchanges_that_go_in_a_circle_are_no_proof_that_no_state_is_consistent():
+    """Murty (1974): a P-matrix, so that one state is consistent. From the first alone closed, all wrong ones at once
+    lead from two closed to the next two for ever."""
+    contact = Pressed(np.array([[1.0, 2.0, 0.0], [0.0, 1.0, 2.0], [2.0, 0.0, 1.0]]), np.ones(3))
+    contact.data[0] = -1.0
+    settling = Settling(contact, 300, 1e-9)
+    contact.solve()
+    while settling(contact, 1.0)[0] > ANY and not settling.unsettled:
+        contact.solve()
+    assert settling.unsettled == settling.cycles == 0
+    assert contact.forces == pytest.approx(np.full(3, 1 / 3), rel=1e-12)
