@@ -27,13 +27,13 @@ from bent_beam.measure.limits import beyond_limits, limited_as
 from bent_beam.measure.reduction import hold_of
 
 LEAST_PUSH = 1e-6  # of the largest gain of a contact point between two saved instants: less is no push
-LAST = 0.5  # of the run that is looked at: earlier, the start is not resolved
+LAST = 0.5  # of the run, or of its saved instants, that is looked at: earlier, the start is not resolved
 
 
 @dataclass(frozen=True)
 class Balance:
-    """momentum, second_moment : largest residual of the equations above in the second half of the run, over the
-    largest |J| and Σ x_i² J_i (second_moment less what missing momentum at the ends would explain); points : the
+    """momentum, second_moment : largest residual of the equations above in the second half of the saved instants, over
+    the largest |J| and Σ x_i² J_i (second_moment less what missing momentum at the ends would explain); points : the
     impulses of the contact points, added up, less J, over the largest |J|, at the end; law : likewise that of the
     contact law, where J is what the momentum lacks and is shared among the points; initial_energy : (recorded −
     ½μLV₀²)/½μLV₀² at t = 0, where the beam arrives with one velocity; gap_of_push : largest gap at the end of an
@@ -128,12 +128,12 @@ def _middle_slope(history: ImpactHistory) -> float | None:
 
 
 def _largest_late(residual: Array) -> float:
-    """Largest |residual| in the second half of the run."""
+    """Largest |residual| in the second half of the saved instants."""
     return float(np.abs(residual[int(LAST * residual.size) :]).max())
 
 
 def _residual(residual: Array, impulse: Array) -> float | None:
-    """Largest in the second half of the run, over the largest impulse; ``None`` without one."""
+    """Largest in the second half of the saved instants, over the largest impulse; ``None`` without one."""
     most = float(np.abs(impulse).max())
     return _largest_late(residual) / most if most > 0.0 else None
 
