@@ -8,7 +8,7 @@ from bent_beam import Impact, ImpactHistory
 from bent_beam.measure.force_map import force_map, spread
 from bent_beam.measure.instant import instant
 from bent_beam.measure.moments import first_front, half_contact_length, jump_of_rim, lift, mean_reaction, unresolved
-from bent_beam.measure.reduction import pull_of, wall_peaks
+from bent_beam.measure.reduction import pull_of, rise_between, wall_peaks
 from hermite_fe import HermiteFE
 from hermite_fe.integrators import MoreauJean
 
@@ -19,6 +19,10 @@ def test_the_lift_at_a_time_is_the_largest_of_the_last_decade() -> None:
     late, lifts = (history.time >= 0.01) & (history.time <= 0.1), lift(history)
     found = instant(history, 0.1, first_spread=True).lift
     assert found == pytest.approx(lifts[late].max(), rel=1e-9) and 0.0 < found < 0.5 * lifts.max()
+    time, x = np.linspace(0.0, 1.0, 101), np.linspace(0.0, 1.0, 101)
+    spreads = np.diff(np.minimum(np.sqrt(time)[:, None], np.append(x, 1.1)), axis=1)
+    grows = history_of(time, x, impulse=spreads, gap=np.outer(time**3, np.ones(101)))  # a lift of t²
+    assert [instant(grows, t, first_spread=True).lift for t in (0.3, 0.5)] == pytest.approx([0.09, 0.25])
 
 
 def test_a_middle_that_lifts_off_does_not_shorten_the_contact_and_a_late_push_alone_makes_it() -> None:
@@ -90,6 +94,8 @@ def test_the_map_of_forces_holds_the_impulse_and_a_pull_is_a_share_of_a_push_in_
     impulse = 1e-3 * np.outer(np.arange(41.0), [3.0, 2.0, 1.0])
     impulse[30:, 1] -= 4e-3
     assert pull_of(history_of(time, x[:3], impact=impact, impulse=impulse)) == pytest.approx(2.0 / 3.0)
+    impulse[:3, 0] += 9e-3  # a pull while a hundredth of the run lasts
+    assert pull_of(history_of(np.r_[time[:4], 500.0 * time[4:]], x[:3], impulse=impulse)) == pytest.approx(2.0 / 3.0)
 
 
 def test_the_largest_until_a_time_between_saved_instants_is_that_of_the_steps_until_then() -> None:
@@ -140,4 +146,14 @@ def test_a_step_at_the_top_of_a_force_stands_above_those_beside_it_by_h_at_a_kin
     peaks["peak_force_time"] = ("time", np.full(time.size, top))
     run = history_of(time, [0.0, 1.0], total_impulse=given)
     run = ImpactHistory.of(run.dataset.assign(peaks).assign_attrs(steps=210))
-    assert least * above < wall_peaks(run).sharp <= above * (1.0 + 1e-6)
+    found = wall_peaks(run).sharp
+    assert least * above < found <= above * (1.0 + 1e-6)
+    for few in (slice(8, 14), slice(7, 14), slice(8, 15)):  # the six instants about the top are enough
+        part = ImpactHistory.of(run.dataset.isel(time=few).assign_attrs(steps=round(200 * time[few][-1])))
+        assert wall_peaks(part).sharp == pytest.approx(found)
+
+
+def test_a_parabola_rises_above_a_value_by_its_top_and_above_an_end_by_nothing() -> None:
+    values = 2.0 - (np.arange(-2.0, 3.0) - 0.3) ** 2
+    assert [rise_between(values[:last], 2) for last in (5, 4, 3)] == pytest.approx([0.09, 0.09, 0.0])
+    assert rise_between(values[2:], 0) == 0.0
