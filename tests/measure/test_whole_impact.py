@@ -101,6 +101,7 @@ def test_what_a_hit_loses_is_what_loads_do_not_give_and_it_is_where_it_pushes() 
     (hit,) = hits(run)
     assert (hit.energy, hit.lost) == pytest.approx((1.0 + 0.2 - 0.15, 0.15))
     assert hit.place == pytest.approx((0.5 + 3.0 * 1.0) / 4.0)
+    assert dataclasses.replace(hit, before=2.0, after=-1.0).restitution == 0.5
     found, given = whole_impact(run), 1.0 + 0.4 * 0.495
     assert (found.supplied, found.supplied_rate, found.energy_gain) == pytest.approx((given, 0.4 / given, 0.0))
 
