@@ -10,7 +10,7 @@ from scipy.integrate import quad
 from scipy.special import erfinv
 
 from bent_beam import Impact
-from theory import contact_parameters, damped_point, peak_moment, predict, validity
+from theory import SelfSimilarWave, contact_parameters, damped_point, peak_moment, predict, validity
 from theory.stopped_beam import StoppedBeam, _cantilever
 
 PIPE = Impact(bending_stiffness=4.0e6, mass_per_length=29.0, length=2000.0, curvature=1.0 / 600.0, velocity=2.0)
@@ -46,7 +46,8 @@ def test_epsilon_does_not_matter() -> None:
     one, shorter = predict(pressed, 0.05), predict(pressed.replace(length=900.0), 0.05)
     assert (shorter.times[0].reaction, shorter.times[0].impulse) == (one.times[0].reaction, one.times[0].impulse)
     assert one.epsilon != shorter.epsilon and one.alpha != shorter.alpha
-    assert one.epsilon * one.lambda1 == pytest.approx(shorter.epsilon * shorter.lambda1, rel=1e-13)
+    ours, theirs = ([found.epsilon * found.lambda1, found.epsilon * found.r1] for found in (one, shorter))
+    assert ours == pytest.approx(theirs, rel=1e-13)
 
 
 def test_an_expansion_that_has_broken_down_returns_nothing() -> None:
@@ -55,6 +56,10 @@ def test_an_expansion_that_has_broken_down_returns_nothing() -> None:
     assert early.valid and early.reaction is not None
     assert not late.valid
     assert late.half_contact_length is late.reaction is late.impulse is None
+    # where the second order is small, a zone counts until it is 30 % longer
+    zones = [Impact.dimensionless(0.9, epsilon_alpha=alpha, length=1e4) for alpha in (0.0, 1e4)]
+    bare, grown = (predict(zone, predict(zones[1]).valid_until).times[0].half_contact_length for zone in zones)
+    assert grown == pytest.approx(1.3 * bare, rel=1e-9)
 
 
 def steel(yield_stress):
@@ -79,6 +84,10 @@ def steel(yield_stress):
 def test_what_ends_it_is_one_thing_and_rows_never_contradict_it(impact, section, limited_by):
     whole = predict(impact, section=section)
     until, early = whole.valid_until, 0.9 * whole.valid_from or 1e-6
+    if limited_by == validity.SLOPE:  # where an arch is 2 % lower than its parabola, θ²/12
+        wave, c = SelfSimilarWave(contact_parameters(whole.kappa_over_nu)), math.sqrt(4.0e6 / 29.0)
+        steepest = np.abs(wave.slope(np.linspace(0.0, whole.lambda0 + 5.0, 2001))).max()
+        assert (300.0 * math.sqrt(until / c) * steepest) ** 2 / 12.0 == pytest.approx(0.02, rel=1e-3)
     times = [0.0, early, 0.5 * until, until, until * (1.0 + 1e-9) + 1e-300, 2.0 * until, 50.0]
     found = predict(impact, times, section=section)
     assert found.limited_by == found.times[4].spoiled_by == limited_by
@@ -142,6 +151,10 @@ def test_without_damping_the_force_over_a_tenth_of_the_time_holds_as_long_as_its
 
     until = predict(impact).force_until
     assert off(until) < 0.02 < off(3.0 * until)
+    for kappa in (0.5, 2.0):  # in proportion to ct/d²
+        end = predict(Impact.whole_beam(kappa)).force_until
+        distance = 1.0 - float(contact_parameters(kappa).lambda0) * math.sqrt(end)
+        assert end / distance**2 == pytest.approx(until, rel=1e-12) == pytest.approx(0.01 / math.sqrt(800.0))
 
 
 def test_a_quartic_bow_sends_waves_from_its_ends() -> None:
@@ -175,6 +188,12 @@ def test_an_acceleration_pushes_a_damped_point_by_its_share_of_the_impulse() -> 
     """Duhamel: the answer to V₀ + a₀t is that to V₀ and a₀/V₀ times the integral of it over time."""
     loaded, bare = (predict(impact, 4e-3).times[0] for impact in (POINT.replace(acceleration=7.0), POINT))
     assert loaded.reaction - bare.reaction == pytest.approx(7.0 * bare.impulse, rel=1e-9)
+    # what tension does in free flight is known without damping alone: good until it changes the force by 2 %
+    flights = [{"axial_force": n, "acceleration": -2.0 * n} for n in (4.0, 0.0)]
+    pulled = predict(POINT.replace(**flights[0]))
+    rows = (predict(Impact.whole_beam(2.0).replace(**flight), pulled.valid_until).times[0] for flight in flights)
+    with_it, without = (row.reaction for row in rows)
+    assert (with_it / without, pulled.limited_by) == (pytest.approx(0.98, rel=1e-9), validity.DAMPING)
 
 
 def test_a_damped_zone_starts_as_one_point() -> None:
@@ -201,6 +220,8 @@ def test_one_point_spreads_once_the_loads_have_taken_its_curvature() -> None:
     assert predict(impact).valid_until == pytest.approx(0.02 / 30.0, rel=1e-9)
     assert predict(impact).limited_by == validity.FIRST_ORDER
     assert predict(impact.replace(acceleration=-11.0)).limited_by == validity.ENDS
+    pulled = Impact.dimensionless(2.0, epsilon_alpha=-1e4, length=100.0)
+    assert predict(pulled).valid_until == pytest.approx(1.0 / 2e4)  # 1 + 2ατ = 0
 
 
 @pytest.mark.parametrize("ratio", [1e-7, 0.3, 0.999, 2.0])

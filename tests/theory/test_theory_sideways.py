@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from twins import EXACT, in_units
 
 from bent_beam.impact import Impact
 from theory import ImpactFields, contact_parameters, predict
@@ -30,6 +31,8 @@ def test_contacts_reach_the_surface_when_it_is_said_that_they_stick(alpha: float
     friction, speed = 0.4, 0.42
     impact = Impact.dimensionless(0.5, epsilon_alpha=alpha, epsilon_chi=chi)
     found = sideways(impact, speed, friction)
+    shorter = sideways(in_units(impact, EXACT), speed * EXACT["m"] / EXACT["s"], friction)
+    assert shorter.sticks_at == pytest.approx(found.sticks_at * EXACT["s"])
     assert found.motion == "slides"
     parameters = contact_parameters(0.5, alpha, 0.0, chi)
     fields = ImpactFields(parameters, epsilon=1.0)
