@@ -5,7 +5,7 @@ import pytest
 
 from bent_beam import Impact
 from theory import ImpactFields, contact_parameters, damped_point, kernel, predict
-from theory.bars import DroppedBar
+from theory.bars import DroppedBar, ReleasedBar
 from theory.elastic_stop import SwungBeam
 from theory.elastic_wall import peak_force
 from theory.second_order import second_order
@@ -45,6 +45,7 @@ PIPE = Impact(1.224e6, 29.02, 90.0, 0.002, 2.0)
         (lambda: peak_force(0.5, -0.1), "wall_damping_ratio"),
         (lambda: SwungBeam(1e4, 0.5, 0.8, -2.0, 300.0), "angular_velocity must be positive"),
         (lambda: DroppedBar().impulse(-1.0), "times must not be negative"),
+        (lambda: ReleasedBar().displacement(1.2, 0.0), r"x must lie in \[0, 1.0\]"),
         (lambda: SwungBeam(1e4, 0.5, 0.8, 2.0, 300.0).peak_force(0.01), "end must lie after the largest force"),
     ],
 )
