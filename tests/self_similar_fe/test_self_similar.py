@@ -90,6 +90,7 @@ def test_impulse_energies_and_front_grow_like_the_root_of_the_time_and_far_ahead
     for k in (0, 20, -1):
         x, gap = half.positions(k)[-1], half.array("gap", k)[-1]
         assert gap == pytest.approx(0.25 * x**2 - half.time[k], rel=1e-6)
+        assert half.array("velocity", k)[[0, -1]] == pytest.approx([0.0, 1.0], abs=1e-6)
     # the front at an instant, bare: from two centroids of what points gathered that move with it
     read, bent = first_front(half, 0.08)
     assert read == pytest.approx(EXACT[0.5][0] * 0.08**0.5, rel=2e-3) and bent < 2e-3 * read
@@ -122,10 +123,11 @@ def test_the_wall_pulls_in_no_step_where_contacts_wander_and_widened_tolerances_
     history = SelfSimilarFE(mesh=mesh).simulate(pulled, end_time=0.05)
     assert history.settings["largest_pull"] < 1e-4 and history.settings["widened"] <= 10.0
     assert not history.warnings
+    assert history.time[-1] / history.time[0] == pytest.approx(1e3, rel=0.04)  # of four decades
     monkeypatch.setattr("self_similar_fe.similarity.worst_of_runs", lambda excess, active: excess > 0.0)
     monkeypatch.setattr("self_similar_fe.similarity.ONE_BY_ONE", -1)
     worse = SelfSimilarFE(mesh=mesh).simulate(pulled, end_time=0.05)
-    assert worse.settings["widened"] > 100.0 and "pulls" in worse.warnings[-1]
+    assert worse.settings["widened"] > 100.0 and worse.settings["largest_pull"] > 1e-4 and "pulls" in worse.warnings[-1]
 
 
 BREAKS = [*({name: 1e-3} for name in ("damping", "rotation", "first_touch", "opposite_wall", "shear_stiffness"))]
@@ -147,8 +149,12 @@ def test_what_breaks_self_similarity_or_is_impossible_is_refused_by_name(made, s
 
 def test_waves_reach_as_far_as_the_root_of_time_and_beyond_a_short_beam_it_is_said():
     short = Impact.dimensionless(0.5, length=4.0)
-    said = [simulate_expanding(short, ExpandingMesh(decades=1.0), end_time=end).warnings[0] for end in (0.1, 0.9)]
-    early, late = (float(re.findall(r"reach ([\d.]+) m, beyond the half length 2 m", one)[0]) for one in said)
+    runs = [simulate_expanding(short, ExpandingMesh(decades=1.0), end_time=end, save=2) for end in (0.1, 0.9)]
+    words = r"reach ([\d.]+) m, beyond the half length 2 m"
+    early, late = (float(re.findall(words, found.warnings[0])[0]) for found in runs)
+    assert runs[1].time == pytest.approx([0.09, 0.9]) and runs[1].positions(1)[-1] == pytest.approx(late, rel=5e-3)
+    for name in ("x", "contact_x"):  # of the end of the run
+        assert np.array_equal(runs[1].dataset[name], runs[1].positions(1))
     assert late == pytest.approx(3.0 * early, rel=1e-2)
 
 
@@ -158,9 +164,20 @@ def test_a_front_that_runs_out_of_its_mesh_is_an_error_with_what_was_reached():
     assert caught.value.history is not None
 
 
+def test_a_load_chooses_when_a_run_starts_how_fine_its_front_is_and_how_long_its_steps_are():
+    loads = {}, {"epsilon_alpha": 1.0}, {"epsilon_alpha": -1.0}, {"epsilon_alpha": -0.25, "epsilon_axial": 0.5}
+    chosen = (SelfSimilarFE().chosen_for(Impact.dimensionless(0.5, **load), 0.1).mesh for load in loads)
+    bare, pushed, pulled, tense = chosen
+    assert pushed.decades == pulled.decades > bare.decades == tense.decades
+    assert pushed.front_resolution < tense.front_resolution < pulled.front_resolution < bare.front_resolution
+    assert pulled.step_ratio == tense.step_ratio < bare.step_ratio < pushed.step_ratio
+
+
 @pytest.mark.parametrize("front", [0.3, 2.0])
 def test_elements_are_fine_at_the_front_and_nowhere_longer_than_a_share_of_the_zone(front):
-    nodes, absorbs = ExpandingMesh(front_resolution=0.02, interior_elements=30).lay(front)
+    nodes, absorbs = ExpandingMesh(front_resolution=0.02, interior_elements=20).lay(front)
     sizes, k = np.diff(nodes), int(np.searchsorted(nodes, front))
     assert nodes[0] == 0.0 and nodes[k] == pytest.approx(front) and absorbs == pytest.approx(front + 8.0)
-    assert sizes[:k].max() <= 1.001 * front / 30 and sizes[k] == pytest.approx(sizes.min(), rel=0.1)
+    assert sizes[:k].max() <= 1.001 * front / 20 and sizes[k] == pytest.approx(sizes.min(), rel=0.1)
+    assert sizes[k] == pytest.approx(0.02 * min(2.0 / np.sqrt(1.0 + front**2), 2.0 * front))
+    assert np.max(np.diff(sizes[k:]) / sizes[k:-1]) == pytest.approx(ExpandingMesh.growth)
