@@ -80,11 +80,14 @@ def test_the_rim_is_as_far_ahead_of_the_force_as_on_a_beam_on_springs(shear) -> 
     roots = np.roots([1.0, 0.0, -(shear**2), 0.0, 1.0])
     behind = float((1.0 / roots[roots.real > 0.0]).sum().real)
     assert wall_prediction.zone_offset(0.5, shear) == pytest.approx(behind - shear)
+    wall = (1.2e6 / 2e8) ** 0.25
     pipe = Impact(1.2e6, 29.0, 90.0, 0.002, 0.5, wall_stiffness=2e8)
+    pipe = pipe.replace(shear_stiffness=1.2e6 / (shear * wall) ** 2 if shear else None)
     soft, rigid = (predict(one, 0.02).times[0] for one in (pipe, pipe.replace(wall_stiffness=None)))
     longer = soft.half_contact_length - rigid.half_contact_length
-    assert longer == pytest.approx(math.sqrt(2.0) * (1.2e6 / 2e8) ** 0.25)
+    assert longer == pytest.approx((behind - shear) * wall)
     assert (soft.reaction, soft.impulse) == (rigid.reaction, rigid.impulse)
+    assert predict(Impact.whole_beam(0.5).replace(wall_stiffness=1e4), 0.95).times[0].half_contact_length == 1.0
 
 
 def test_the_largest_force_is_given_up_where_loads_change_a_rigid_wall_s_by_2_percent() -> None:
@@ -139,8 +142,7 @@ def test_prediction_in_si_units() -> None:
     assert found.peak_force == pytest.approx(2.0 * math.sqrt(29.0) * (1.2e6 * 2e8) ** 0.25 * f.value, rel=1e-12)
     assert found.wall.peak_force_time == pytest.approx(math.sqrt(29.0 / 2e8) * f.time, rel=1e-12)
     assert found.wall.pressure == pytest.approx(2.0 * math.sqrt(2e8 * 29.0) * f.pressure, rel=1e-12)
-    offset = wall_prediction.zone_offset(pipe.kappa_over_nu)
-    assert found.wall.zone_offset == pytest.approx(offset * (1.2e6 / 2e8) ** 0.25, rel=1e-12)
+    assert found.wall.zone_offset == pytest.approx(wall_prediction.zone_offset(0.5) * (1.2e6 / 2e8) ** 0.25, rel=1e-12)
     assert found.limited_by == "wall"  # so flat a zone remembers how it landed
     assert found.wall.spoiled_by is None
     assert predict(pipe.replace(length=4.0)).wall.spoiled_by == "waves back from the ends"
@@ -213,6 +215,7 @@ def test_a_pressure_that_begins_or_ends_between_two_points_acts_from_there_on():
         loads, force, found = _loads(pressure, pressure, 0.1)
         assert (force, found) == pytest.approx((2.0 * 0.1 * 0.25, rim))
         assert (loads[0], 2.0 * loads[1]) == pytest.approx((force * (1.0 - place), force * place))
+    assert _loads(-np.ones(2), -np.ones(2), 0.1)[1:] == (0.0, 0.0)
 
 
 def test_the_largest_force_is_not_below_any_that_the_record_holds():
