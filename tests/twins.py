@@ -39,6 +39,8 @@ OF_INSTANT |= {"peak_moment": "N m", "moment_left_out": "N m", "peak_moment_plac
 OF_INSTANT |= {"peak_force_time": "s", "peak_force_place": "m", "peak_force_sharp": "N"}
 OF_HIT = {"begin": "s", "end": "s", "place": "m", "impulse": "N s", "energy": "J", "lost": "J", "moment": "N m"}
 OF_HIT |= dict.fromkeys(("before", "after"), "m/s")
+OF_PARTS = dict.fromkeys(("element_length", "zone", "domain", "places"), "m")
+OF_PARTS |= dict.fromkeys(("time_step", "flight_step", "hold_until"), "s")
 
 # 2.4 m long, T* = 1.76 s
 BEAM = Impact(2.0, 3.0, 2.4, 1.5, 1.25, acceleration=0.8, section_height=0.02, damping=2e-3)

@@ -6,7 +6,7 @@ from functools import cache
 
 import pytest
 from here import FUZZ, SEED
-from twins import EXACT, OF_HIT, OF_INSTANT, RUNS, agree, differences, in_units, run
+from twins import BEAM, EXACT, OF_HIT, OF_INSTANT, OF_PARTS, RUNS, SHEARED, SOFT, agree, differences, in_units, run
 
 from bent_beam import Impact, ImpactHistory
 from bent_beam.measure.balance import balance_of
@@ -14,6 +14,7 @@ from bent_beam.measure.instant import instant
 from bent_beam.measure.moments import moments
 from bent_beam.measure.whole_impact import hits, whole_impact
 from bent_beam.meshes import UniformMesh
+from bent_beam.method import separation_times
 from comparison.bouncing import follow_hits
 from comparison.compare import rerun_history
 from exudyn_models import ExudynModel
@@ -56,6 +57,31 @@ def test_hits_that_follow_change_with_their_units():
     assert len(found[0]) == 2
     for one, other in zip(*found, strict=True):
         agree(one, other, OF_HIT)
+
+
+TO_CHOOSE = {
+    "a front": BEAM.replace(curvature=0.7, damping=0.0, length=240.0),
+    "an early lift": BEAM.replace(curvature=0.7, damping=0.05, first_touch=0.2),
+    "a thin front": BEAM.replace(curvature=0.006),
+    "one point": BEAM.replace(curvature=3.0, fourth_derivative=0.5, length=240.0),
+    "sheared": SHEARED.replace(curvature=0.7),
+    "a soft wall": BEAM.replace(**SOFT),
+    "a bed of feathers": BEAM.replace(wall_stiffness=1e-3),
+}
+
+
+@pytest.mark.parametrize("method", [HermiteFE(), ExudynModel()], ids=lambda method: method.path)
+@pytest.mark.parametrize("kind", TO_CHOOSE)
+def test_elements_and_steps_that_are_chosen_change_with_their_units(kind, method):
+    one, share = TO_CHOOSE[kind], 1e-3
+    for end in (share * one.slow_time_scale, 3e3 * share * one.slow_time_scale):
+        pairs = (one, end), (in_units(one, EXACT), end * EXACT["s"])
+        agree(*(method.for_whole_beam(impact) for impact, _ in pairs), OF_PARTS)
+        times = [separation_times(impact, save=20) for impact, _ in pairs]
+        assert times[1] == pytest.approx(times[0] * EXACT["s"], rel=1e-12)
+        agree(*(method.chosen_for(*pair) for pair in pairs), OF_PARTS)
+        if isinstance(method, HermiteFE):
+            agree(*(method.for_whole_beam(*pair) for pair in pairs), OF_PARTS)
 
 
 QUICK = ("Signorini, loads of the bow", "nonsmooth generalised-α, sheared", "expanding, bare", "Exudyn")
