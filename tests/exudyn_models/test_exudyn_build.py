@@ -14,7 +14,7 @@ from bent_beam import Impact
 from bent_beam.meshes import UniformMesh
 from bent_beam.method import method_from_tables
 from exudyn_models import CONTACTS, ELEMENTS, INTEGRATORS, ExudynModel
-from exudyn_models.contacts import Penalty
+from exudyn_models.contacts import Penalty, SegmentFriction
 from exudyn_models.elements import GeometricallyExact
 from exudyn_models.geometry import TrueGeometry
 from exudyn_models.integrators import GeneralizedAlpha, Newmark
@@ -55,11 +55,16 @@ def test_a_second_wall_pushes_the_other_way():
 
 
 def test_the_ends_bear_moment_and_shear_of_a_bend_in_si_units():
-    """EI q₀x²/2 and −EI q₀x of y₀ = q₀x⁴/24."""
-    model = exudyn_models.build(STEEL.replace(fourth_derivative=0.01), mesh=MESH)
-    loads = (model.mbs.GetLoad(n) for n in range(model.mbs.systemData.NumberOfLoads()))
-    found = [load["load"] / model.scale for load in loads if load["loadType"] == "Coordinate"]
-    assert found == pytest.approx([2.1e3 * 0.01 * 1.5**2 / 2.0, -2.1e3 * 0.01 * 1.5])
+    """EI q₀x²/2 and −EI q₀x of y₀ = q₀x⁴/24; a pull along the axis has no part across."""
+
+    def loads(end_time=None, **load):
+        model = exudyn_models.build(STEEL.replace(**load), mesh=MESH, end_time=end_time)
+        every = (model.mbs.GetLoad(n) for n in range(model.mbs.systemData.NumberOfLoads()))
+        return model.scale, [load["load"] for load in every if load["loadType"] == "Coordinate"]
+
+    scale, found = loads(fourth_derivative=0.01)
+    assert found == pytest.approx([scale * 2.1e3 * 0.01 * 1.5**2 / 2.0, -scale * 2.1e3 * 0.01 * 1.5])
+    assert loads(0.05, axial_force=50.0)[1] == pytest.approx([50.0])
 
 
 def test_sections_turn_at_first_as_the_rate_of_curvature_has_it_in_si_units():
@@ -91,6 +96,11 @@ def test_items_are_in_si_units_and_sensors_agree_with_one_another():
     given = exudyn_models.build(STEEL, mesh=UniformMesh(0.015), contact=Penalty(stiffness=2e9, damping=3e4))
     law = given.mbs.GetObject(given.contacts[1])  # N/m² and N s/m² of the wall, over Δx
     assert (law["contactStiffness"], law["contactDamping"]) == pytest.approx((2e9 * 0.015, 3e4 * 0.015))
+    rubbing = exudyn_models.build(STEEL, mesh=UniformMesh(0.015), contact=SegmentFriction(friction=0.2))
+    law, dashpot = rubbing.mbs.GetObject(rubbing.contacts[0]), (2.1e3 * 1.6) ** 0.5 / 0.015
+    assert law["contactStiffness"] == pytest.approx(10.0 * 2.1e3 / 0.015**3)
+    assert (law["contactDamping"], law["frictionVelocityPenalty"]) == pytest.approx((10.0 * dashpot, dashpot))
+    assert law["circleRadius"] * rubbing.scale == pytest.approx(1.0 / 0.02)  # the bow's own, as it is scaled
     end = model.settings.timeIntegration.endTime
     times = np.linspace(0.0, end, read["force"].size)
     assert np.trapezoid(read["force"][:, 0], times) == pytest.approx(read["impulse"][-1, 0], rel=0.05)
