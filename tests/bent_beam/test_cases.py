@@ -28,6 +28,7 @@ def case(beam=BOW, section=PIPE, impact=FLIGHT, **more):
 def test_pipe_is_outer_less_inner_bar_with_what_it_carries_along():
     pipe = Pipe(outer_diameter=0.127, inner_diameter=0.1086, **STEEL)
     outer, inner = RoundBar(diameter=0.127, **STEEL), RoundBar(diameter=0.1086, **STEEL)
+    assert (outer.area, outer.second_moment) == pytest.approx((math.pi * 0.0635**2, math.pi * 0.0635**4 / 4.0))
     assert pipe.bending_stiffness == pytest.approx(outer.bending_stiffness - inner.bending_stiffness, rel=1e-13)
     assert pipe.mass_per_length == pytest.approx(outer.mass_per_length - inner.mass_per_length, rel=1e-13)
     walled = Pipe(outer_diameter=0.127, wall_thickness=0.0092, **STEEL)

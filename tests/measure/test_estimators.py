@@ -247,6 +247,7 @@ def test_the_moment_of_a_cubic_is_exact_and_the_peak_is_where_it_is_largest(with
     assert found[..., 1] == pytest.approx(exact[:, 1:], rel=1e-12)
     assert history.bending_moments(2)[0] == pytest.approx(found[2], rel=1e-15)
     assert np.all(place == np.stack([x[:-1], x[1:]], axis=1))
+    assert history.moment == pytest.approx(np.abs(exact).max(axis=1), rel=1e-12)
     peak = peak_moment(history)
     assert peak.time == 2.0
     if with_slope:
@@ -255,6 +256,14 @@ def test_the_moment_of_a_cubic_is_exact_and_the_peak_is_where_it_is_largest(with
     assert peak.moment == pytest.approx(exact[2, -1], rel=1e-12)
     assert peak.midspan == pytest.approx(exact[2, 0], rel=1e-12)
     assert peak_moment(history, until=0.0) == (0.0, 0.0, 0.0, 0.0)
+
+
+def test_a_pressure_that_comes_and_goes_with_the_saved_instants_is_told_by_its_mean():
+    """2 on points within 0.6, 0.01 apart, in every other interval."""
+    x, time = np.linspace(0.0, 1.0, 101), np.linspace(0.0, 1.0, 401)
+    impulse = np.outer(0.01 * np.cumsum(np.arange(401) % 2) * 2.0 / 400.0, x < 0.6)
+    found = moments(history_of(time, x, impulse=impulse, total_impulse=2.0 * impulse.sum(axis=1))).pressure
+    assert found[100:] == pytest.approx(1.0, rel=0.02)
 
 
 def test_moments_of_a_mesh_that_moves_stand_where_its_nodes_are_then():

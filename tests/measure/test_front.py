@@ -57,7 +57,8 @@ def test_a_front_that_does_not_go_as_the_root_of_time_is_between_where_it_was_an
     ends[:, 300], ends[:, 0] = np.minimum(time, 0.25), np.maximum(time - 0.25, 0.0)
     before, after = (1.0 + np.sqrt(0.9)) / 2.0, (1.0 + np.sqrt(1.1)) / 2.0
     share = (after - 1.0) / (after - before)
-    assert first_front(history_of(time, x, impulse=ends), 0.25)[0] == pytest.approx(0.3 * share, rel=0.02)
+    front, bent = first_front(history_of(time, x, impulse=ends), 0.25)
+    assert front == pytest.approx(0.3 * share, rel=0.02) and bent == pytest.approx(0.3)  # it may be at either place
 
 
 def test_a_rim_that_jumps_about_an_instant_is_known_to_its_jump_alone() -> None:
