@@ -73,10 +73,12 @@ TO_CHOOSE = {
 @pytest.mark.parametrize("method", [HermiteFE(), ExudynModel()], ids=lambda method: method.path)
 @pytest.mark.parametrize("kind", TO_CHOOSE)
 def test_elements_and_steps_that_are_chosen_change_with_their_units(kind, method):
-    one, share = TO_CHOOSE[kind], 1e-3
-    for end in (share * one.slow_time_scale, 3e3 * share * one.slow_time_scale):
-        pairs = (one, end), (in_units(one, EXACT), end * EXACT["s"])
+    given = TO_CHOOSE[kind]
+    for end in (1e-3 * given.slow_time_scale, 3.0 * given.slow_time_scale):
+        pairs = (given, end), (in_units(given, EXACT), end * EXACT["s"])
         agree(*(method.for_whole_beam(impact) for impact, _ in pairs), OF_PARTS)
+        for both in zip(*(method.cross_checks(impact).values() for impact, _ in pairs), strict=True):
+            agree(*both, OF_PARTS)
         times = [separation_times(impact, save=20) for impact, _ in pairs]
         assert times[1] == pytest.approx(times[0] * EXACT["s"], rel=1e-12)
         agree(*(method.chosen_for(*pair) for pair in pairs), OF_PARTS)
