@@ -366,6 +366,8 @@ def test_the_largest_push_begins_when_the_wall_begins_to_push_within_its_window(
     impulse, x = momentum * run.array("impulse"), np.linspace(0.0, 3.0, 5)
     heavy = whole_impact(recorded(18.0 * run.time, impulse, x=x, impact=HEAVY))
     assert (heavy.push, heavy.push_rise) == pytest.approx((steady.push, steady.push_rise))
+    slap = whole_impact(recorded(18.0 * time, np.outer(time > 0.2995, np.eye(5)[0]), x=x, impact=HEAVY))
+    assert slap.push_time == pytest.approx(0.299)  # T*
 
 
 @pytest.mark.parametrize(("apart", "separations"), [(1.5e-3, 1), (2.5e-3, 2)])
