@@ -9,9 +9,9 @@ own (``imposes``: closed is what pushes), that decides, and the states are writt
 - all connectors follow their gaps at once. When ``BLOCK`` repetitions have not made fewer contradict theirs, one at a
   time is switched until fewer do: the one with the largest force, and after ``PERSISTENCE`` repetitions more the last
   (Murty's rule; as in the Hermite path: Júdice & Pires 1994, Comput. Oper. Res. 21, 587);
-- a state comes back that this step had already tried: the next of these rules is taken at once. Where it comes back
-  under Murty's, none is consistent: of the states that return, the one that contradicts itself least is accepted, and
-  counted;
+- a state comes back that this step had already tried: the next of these rules is taken at once, as the first two may
+  circle although a state is consistent. Where it comes back under Murty's, none is taken to be: of the states of that
+  circle, the one that contradicts itself least is accepted, and counted;
 - the repetitions run out before: the step is not solved.
 """
 
@@ -97,7 +97,7 @@ class Settling:
         if contradictions < self._fewest:
             self._fewest, self._patience = contradictions, BLOCK
         if (before > 0) != (self._patience > 0) or self._patience == -PERSISTENCE:
-            self._tried = {}  # under another rule a state may well come back
+            self._tried, self._cycling = {}, False  # under another rule a state may well come back
         return self._patience > 0
 
     def _returns(self, closed: Flags, doubtful: Flags, force: float) -> bool:
@@ -107,9 +107,9 @@ class Settling:
             self._doubtful = doubtful if self._doubtful is None else doubtful | self._doubtful
             self._tried, self._cycling = {}, False
         state = closed[self._doubtful].tobytes()
-        if state in self._tried and self._patience > -PERSISTENCE:  # such rules may go in circles past what is sought
+        if state in self._tried and self._patience > -PERSISTENCE:
             self._patience = 0 if self._patience > 0 else -PERSISTENCE
-            self._tried = {}
+            self._tried, self._cycling = {}, False
         elif state in self._tried:
             while not self._cycling and next(iter(self._tried)) != state:
                 del self._tried[next(iter(self._tried))]  # what led into the cycle, never to return
