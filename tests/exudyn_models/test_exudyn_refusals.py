@@ -179,3 +179,13 @@ def test_exchanges_that_go_in_a_circle_are_no_proof_that_no_state_is_consistent(
         contact.solve()
     assert settling.unsettled == settling.cycles == 0
     assert contact.forces == pytest.approx(np.full(3, 1 / 3), rel=1e-12)
+
+
+def test_a_contact_without_a_consistent_state_is_counted_and_ends():
+    """Closed it pulls, open it has entered the wall."""
+    contact = Pressed(-np.eye(1), np.ones(1))
+    settling = Settling(contact, 300, 1e-9)
+    contact.solve()
+    while settling(contact, 1.0)[0] > ANY and not settling.unsettled:
+        contact.solve()
+    assert (settling.cycles, settling.unsettled) == (1, 0)

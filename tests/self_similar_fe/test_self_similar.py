@@ -76,7 +76,8 @@ def test_energy_of_the_fast_part_is_the_work_of_the_wall(half):
     heavy = Impact(2.0, 8.0, 600.0, 0.5 / 3.0, 1.0 / 6.0).replace(fourth_derivative=1e-3 / 6.0)  # κ/ν = 0.5, ψ > 0
     history = simulate_expanding(heavy, QUICK, end_time=0.1 * heavy.time_scale)
     assert history.time[-1] == pytest.approx(0.1 * heavy.time_scale)
-    impulse = SIDE * 4.0 * 8.0 / 6.0 * np.sqrt(0.5 * history.time[-1]) * EXACT[0.5][1]
+    mass, speed, root = 8.0, 1.0 / 6.0, np.sqrt(0.5 * history.time[-1])  # √(ct)
+    impulse = SIDE * 4.0 * mass * speed * root * EXACT[0.5][1]
     assert history.array("total_impulse")[-1] == pytest.approx(impulse, rel=1e-3)
     budget = history.energy_budget()
     assert abs(budget["defect"]) < 3e-5 * budget["work_of_loads"]
@@ -125,7 +126,9 @@ def test_the_wall_pulls_in_no_step_where_contacts_wander_and_widened_tolerances_
     history = SelfSimilarFE(mesh=mesh).simulate(pulled, end_time=0.05)
     assert history.settings["largest_pull"] < 1e-4 and history.settings["widened"] <= 10.0
     assert not history.warnings
-    assert history.time[-1] / history.time[0] == pytest.approx(1e3, rel=0.04)  # of four decades
+    assert history.time[-1] / history.time[0] == pytest.approx(
+        1e3, rel=0.04
+    )  # three of the four decades of steps are saved
     monkeypatch.setattr("self_similar_fe.similarity.worst_of_runs", lambda excess, active: excess > 0.0)
     monkeypatch.setattr("self_similar_fe.similarity.ONE_BY_ONE", -1)
     worse = SelfSimilarFE(mesh=mesh).simulate(pulled, end_time=0.05)
@@ -166,12 +169,14 @@ def test_a_front_that_runs_out_of_its_mesh_is_an_error_with_what_was_reached():
 
 
 def test_a_load_chooses_when_a_run_starts_how_fine_its_front_is_and_how_long_its_steps_are():
+    """A load on the zone needs an early start; one that pushes closes what the start has left open, in long steps;
+    one that pulls leaves a point or two, which the front must not pass in a step. α = −¼ takes NK off the zone."""
     loads = {}, {"epsilon_alpha": 1.0}, {"epsilon_alpha": -1.0}, {"epsilon_alpha": -0.25, "epsilon_axial": 0.5}
     impacts = (Impact.dimensionless(0.5, **load) for load in loads)
     bare, pushed, pulled, tense = (SelfSimilarFE().chosen_for(impact, 0.1).mesh for impact in impacts)
-    assert pushed.decades == pulled.decades > bare.decades == tense.decades
+    assert min(pushed.decades, pulled.decades) > max(bare.decades, tense.decades)
     assert pushed.front_resolution < tense.front_resolution < pulled.front_resolution < bare.front_resolution
-    assert pulled.step_ratio == tense.step_ratio < bare.step_ratio < pushed.step_ratio
+    assert max(pulled.step_ratio, tense.step_ratio) < bare.step_ratio < pushed.step_ratio
 
 
 @pytest.mark.parametrize("front", [0.3, 2.0])
@@ -180,5 +185,6 @@ def test_elements_are_fine_at_the_front_and_nowhere_longer_than_a_share_of_the_z
     sizes, k = np.diff(nodes), int(np.searchsorted(nodes, front))
     assert nodes[0] == 0.0 and nodes[k] == pytest.approx(front) and absorbs == pytest.approx(front + 8.0)
     assert sizes[:k].max() <= 1.001 * front / 20 and sizes[k] == pytest.approx(sizes.min(), rel=0.1)
-    assert sizes[k] == pytest.approx(0.02 * min(2.0 / np.sqrt(1.0 + front**2), 2.0 * front))
+    thickness = 2.0 / np.sqrt(1.0 + front**2)  # of the front
+    assert sizes[k] == pytest.approx(0.02 * min(thickness, 2.0 * front))
     assert np.max(np.diff(sizes[k:]) / sizes[k:-1]) == pytest.approx(ExpandingMesh.growth)

@@ -29,7 +29,7 @@ TIMES = ("time_scale", "slow_time_scale", "valid_from", "valid_until", "force_un
 UNITS = dict.fromkeys(LENGTHS, "m") | dict.fromkeys((*TIMES, "peak_force_time"), "s")
 UNITS |= dict.fromkeys(("reaction", "peak_force", "peak_force_error"), "N") | {"impulse": "N s", "peak_moment": "N m"}
 UNITS |= dict.fromkeys(("contact_force_per_length", "pressure"), "N/m") | {"peak_stress": "Pa"}
-BASES = [EXACT, {"kg": 1e-12, "m": 1e6, "s": 1e-4}]
+BASES = [EXACT, {"kg": 1e-12, "m": 1e6, "s": 1e-4}]  # the second makes c = √(EI/μ) 1e16 times as large
 if FUZZ:
     RANDOM = random.Random(SEED)
     BASES += [{unit: 10.0 ** RANDOM.uniform(-9.0, 9.0) for unit in EXACT} for _ in range(6)]
