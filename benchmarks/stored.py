@@ -2,7 +2,7 @@
 
     python -m benchmarks.stored [--renew] [--jobs N] [NAME ...]
 
-A number whose code is the one that made it is left alone. A stale one is confirmed where a sample can tell: the sample
+A number whose code is the one that made it is left alone. A stale one is confirmed where a sample tells enough: the sample
 is measured again, agrees within its error bars, and the file gets today's digest. Where it does not agree, and where
 there is no sample, everything is measured anew. ``--renew`` measures everything anew, fresh or not.
 """
@@ -46,7 +46,7 @@ DRAWN = (f"-m comparison.command_line gallery --out {GALLERY} --jobs {{jobs}}", 
 SPEEDS = ("report/stored/work-precision.json", "report/stored/work-precision-first-order.json")
 ALL = (
     Numbers("restitutions", ("open_benchmark/bounce_reference.json",), (BOUNCES,), f"{BOUNCES} --confirm"),
-    Numbers("studies", ("stored_studies/studies.json",), (f"{STUDIES} --jobs {{jobs}}",), f"{STUDIES} --confirm"),
+    Numbers("studies", ("stored_studies/studies.json",), (f"{STUDIES} --jobs {{jobs}}",)),
     Numbers("numbers", ("stored_studies/numbers.json",), DRAWN, waits_for=("studies",)),
     Numbers("work and precision", SPEEDS, (f"-m {REPORT}.work",), waits_for=("numbers",)),
     Numbers("references", ("open_benchmark/references.json",), (f"-m {BENCHMARK}.release",), None, ("restitutions",)),

@@ -2,8 +2,7 @@
 
 ``python -m bent_beam_programs.thesis.stored_studies`` writes ``studies.json`` in ``bent_beam_programs/stored_studies``,
 {"studies": [{"name", "title", "case", "columns", "rows", "conclusion", "says", "failed", "reason", "date"}]}, and
-``NAME.png`` beside it. ``--confirm`` runs the first study alone and, where its numbers are the stored ones, gives the
-file today's digest (:mod:`bent_beam.stored`).
+``NAME.png`` beside it.
 """
 
 from __future__ import annotations
@@ -74,8 +73,6 @@ SAYS = {  # what the thesis says of a study, and whether it is so, on its own ca
     "first-order-case": "The thesis (3.5) fits 227 and −270.8 m/s^1.5, does not say over which part of its run, and "
     "has no value of theory to compare with.",
 }
-COMPARED = ("contact_length_error", "reaction_error", "fit_1")
-WITHIN = 0.02  # of a number and, for the errors in per cent, absolute
 
 
 def case_of(name: str) -> Case:
@@ -129,38 +126,10 @@ def store_studies(*, file: Path = FILE, jobs: int = 1) -> Path:
     return stored.write(file, "parameter studies of the thesis", made_by, PACKAGES, {"cases": CASES}, data)
 
 
-def confirm_studies(*, file: Path = FILE) -> None:
-    """Run the first of the stored studies again and give the file today's digest and words.
-
-    Raises ``ValueError`` where other studies are stored than there are, or naming the first number that differs by more
-    than 2 % (and 0.02 of a per cent).
-    """
-    before = {note["name"]: note for note in stored.read(file)["studies"]}
-    if others := sorted(before.keys() ^ STUDIES.keys()):
-        raise ValueError(f"{file.name}: stored and no study, or a study and not stored: {', '.join(others)}; run them")
-    name = next(iter(STUDIES))
-    with TemporaryDirectory() as work:
-        note = note_of(name, Path(work))
-    pairs = {row["label"]: row for row in before[name]["rows"]}
-    if pairs.keys() != {row["label"] for row in note["rows"]}:
-        raise ValueError(f"{name}: the stored rows are others ({note['reason'] or 'run it again'})")
-    for row in note["rows"]:
-        for key in COMPARED:
-            old, new = pairs[row["label"]].get(key), row.get(key)
-            if (old is None) != (new is None) or (old is not None and abs(new - old) > WITHIN * (1.0 + abs(old))):
-                raise ValueError(f"{name}, {row['label']}: {key} is {new}, stored {old}; run the study again")
-    stored.confirm(file, PACKAGES, studies=[note | words_of(note["name"]) for note in before.values()])
-
-
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--jobs", type=int, default=1, help="studies at the same time")
-    parser.add_argument("--confirm", action="store_true", help="run a sample again and renew the digest")
-    given = parser.parse_args()
-    try:
-        confirm_studies() if given.confirm else store_studies(jobs=given.jobs)
-    except ValueError as error:
-        parser.error(str(error))
+    store_studies(jobs=parser.parse_args().jobs)
 
 
 if __name__ == "__main__":
