@@ -2,9 +2,9 @@
 
     python -m benchmarks.stored [--renew] [--jobs N] [NAME ...]
 
-A number whose code is the one that made it is left alone. A stale one is confirmed where a sample tells enough: the sample
-is measured again, agrees within its error bars, and the file gets today's digest. Where it does not agree, and where
-there is no sample, everything is measured anew. ``--renew`` measures everything anew, fresh or not.
+A number whose code is the one that made it is left alone. A stale one is confirmed where a sample tells enough: the
+sample is measured again, agrees within its error bars, and the file gets today's digest. Where it does not agree, and
+where there is no sample, everything is measured anew. ``--renew`` measures everything anew, fresh or not.
 """
 
 from __future__ import annotations

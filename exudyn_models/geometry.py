@@ -156,8 +156,8 @@ class Shape:
 
 def element_times(lengths: Array, shear_length: float) -> Array:
     """√(μ/EI) Δx² √(1 + Φ), Φ = 12 (l_s/Δx)², with √(EI/μ) = 1: the time in which an element of this length follows
-    what happens at its ends, by bending or, where Δx ≪ l_s, in that of a shear wave. Grid viscosity, penalty and steps
-    are measured by it."""
+    what happens at its ends, by bending or, where Δx ≪ l_s, in that of a shear wave. Grid viscosity and penalty are
+    measured by it."""
     return np.asarray(lengths * np.sqrt(lengths**2 + 12.0 * shear_length**2))
 
 

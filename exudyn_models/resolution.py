@@ -162,7 +162,8 @@ def reachable(x: Array, scaling: Scaling, centre: int) -> Indices:
     between two walls, of a beam that rocks, is pushed at a point or has a held end, before a plate or a stop, and once
     waves are back.
 
-    A growing velocity (χ > 0) or an upward bent end (ψ > 0) would bring the far field to the wall: let through."""
+    An upward bent end (ψ > 0) would bring the far field to the wall, by a growing velocity (χ > 0) the sooner: it is
+    let through."""
     impact = scaling.impact
     any_may = impact.opposite_wall is not None or impact.rotation or impact.forces or supports_or_plate(impact)
     if any_may or lasts_until_waves_return(impact, scaling.end_time):
