@@ -10,8 +10,8 @@ of a pressed zone for c₀ < 0: it sticks at
 
     t = (v_s/μ_f − V₀)/(a₀ + ½c₀λ₀²c)
 
-where the denominator is positive. The spin is that of a rigid shaft: v_s does not change. No command asks for it; it
-stands in docs/theory.md, section 9.
+where the denominator is positive, in the latter case without the term c₀. The spin is that of a rigid shaft: v_s does
+not change. No command asks for it; it stands in docs/theory.md, section 9.
 """
 
 from __future__ import annotations

@@ -9,7 +9,7 @@ numbers carry such a range, in which they are right to 2 %, in place of an error
   until both swings are beyond `SWING` (`force_until`).
   Loads make the ends send waves of their own: with q₀ they swing the force by √2 |q₀|cℓ²/(r₀V₀), with an axial force
   along x by 4√2 NKt/(μV₀r₀), and the impulse by 2ct/ℓ² of as much. Where the force would swing by more than 2 %, the
-  limit is d = 2 `DISTANCE` √(ct), or earlier, when the impulse swings by 2 %.
+  limit is d = 2 `DISTANCE` √(ct), or earlier, when the impulse swings by 2 %, but not before the force does.
 - **loads**: the second order (`theory.second_order`) over what first order predicts, and the first order over the
   leading one, which has to be small. One point spreads when the loads have taken the curvature κ − ν of its gap away.
 - **damping**: one point has a closed form (`theory.damped_point`), under an axial force up to its share in r₁. A zone

@@ -172,7 +172,8 @@ def first_order(
         has closed what the start left open. Where it is negative the zone should lift. ``None``: its own mean.
     companions : what the same runs at other resolutions gave.
 
-    Each run gives polynomials in δ = ετ; all runs are fitted together, so ε → 0 is reached by the term in δ²; one in δ³ tells the bar.
+    Each run gives polynomials in δ = ετ; all runs are fitted together, so ε → 0 is reached by
+    the term in δ². One in δ³ tells the bar.
 
     The bar is the sum of
 
