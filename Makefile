@@ -16,7 +16,7 @@ help:
 	@echo "make report   match the simulations with the theory and write out/report/index.html"
 	@echo "make test     the test suite (about three minutes on two cores)"
 	@echo "make verify   longer checks; make fuzz: random input and kills; make bench: speed, as ratios"
-	@echo "make coverage do the error bars hold? methods drawn at random against the theory (SEED=N draws the same again)"
+	@echo "make coverage do the error bars hold? random methods and beams; balances of default runs (SEED=N draws the same again)"
 	@echo "make faults   do the quick tests see broken lines? faults drawn at random, one at a time (SEED=N; hours)"
 	@echo "make stored   confirm stored numbers, or make them anew (RENEW=1: all of them)"
 	@echo "make lint     ruff and mypy; make docs: the guide in site/; make gallery: every figure of the thesis"
