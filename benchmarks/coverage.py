@@ -10,10 +10,11 @@ rows are about first order: loads log-uniform from 0.3 to 300, what gravity is, 
 metres to millimetres per second; α alone twice as often as (α, ψ, χ) or an axial force in free flight, of either sign.
 Eight of ten on the Hermite path, one each on the self-similar and the Exudyn path. Hermite: mesh chosen, uniform,
 graded or scale-free alike, with elements log-uniform from 1/50 to 2/5 of the front's thickness 2√(κτ/2) at the end and
-growth log-uniform from 0.5 to 10 % an element; four of the integrators (no midpoint rule, no massless boundary), Signorini at the new position twice as often,
-θ = 1, 0.8 or 0.6 and ρ∞ = 0.8 or 0.5; contact at nodes (twice as often), middles or means. Self-similar: resolution of
-the front log-uniform from 0.5 to 10 %, growth 1 to 6 %, steps 1 to 6 % of the time, two to five decades. Exudyn: three
-implicit integrators, everything up to three times coarser than chosen.
+growth log-uniform from 0.5 to 10 % an element; all integrators but the midpoint rule and the massless
+boundary, Signorini at the new position twice as often, θ = 1, 0.8 or 0.6 and ρ∞ = 0.8 or 0.5; contact at nodes (twice
+as often), middles or means. Self-similar: resolution of the front log-uniform from 0.5 to 10 %, growth 1 to 6 %, steps
+1 to 6 % of the time, two to five decades. Exudyn: three implicit integrators, everything up to three times coarser than
+chosen.
 """
 
 from __future__ import annotations

@@ -3,11 +3,11 @@
     make faults                                  (python -m benchmarks.faults [--each 30] [--room NAME] [--seed N])
     python -m benchmarks.faults --put comparison/predicting.py "AGREE = 0.02" "AGREE = 2.0"
 
-Draws places of each room below the programs by a printed seed and breaks one at a time, in a copy of the project: a constant is scaled, a
-sign or an operator flipped, a comparison turned round, a factor dropped, an index moved by one. Only that piece of text
-changes; messages, pictures and the text of commands are left out. The quick tests of the room are asked first, files
-that speak of the module before others, then those of one floor up. Prints each fault and the first test that sees it,
-or UNSEEN. Whether an unseen fault changes a number is for the reader to judge: not all do.
+Draws places of each room below the programs by a printed seed and breaks one at a time, in a copy of the project: a
+constant is scaled, a sign or an operator flipped, a comparison turned round, a factor dropped, an index moved by one.
+Only that piece of text changes; messages, pictures and the text of commands are left out. The quick tests of the room
+are asked first, files that speak of the module before others, then those of one floor up. Prints each fault and the
+first test that sees it, or UNSEEN. Whether an unseen fault changes a number is for the reader to judge: not all do.
 """
 
 from __future__ import annotations
