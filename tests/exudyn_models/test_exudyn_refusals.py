@@ -153,6 +153,15 @@ class Pressed:
         return np.maximum(np.where(closed, -forces, -gaps), 0.0)
 
 
+def settled(contact: Pressed) -> Settling:
+    """The judge after as many solutions as it asked for."""
+    settling = Settling(contact, 300, 1e-9)
+    contact.solve()
+    while settling(contact, 1.0)[0] > ANY and not settling.unsettled:
+        contact.solve()
+    return settling
+
+
 def test_a_stiff_chain_pressed_at_random_settles():
     """Sixty contacts a fourth derivative apart: exchanging all that are wrong at once runs out of repetitions."""
     count = 60
@@ -160,10 +169,7 @@ def test_a_stiff_chain_pressed_at_random_settles():
     flexibility = np.linalg.inv(1e-5 * np.eye(count) + bending.T @ bending)
     for seed in range(10):
         contact = Pressed(flexibility, np.random.default_rng(seed).normal(size=count))
-        settling = Settling(contact, 300, 1e-9)
-        contact.solve()
-        while settling(contact, 1.0)[0] > ANY and not settling.unsettled:
-            contact.solve()
+        settling = settled(contact)
         assert settling.unsettled == settling.cycles == 0
         assert contact.forces.min() >= -1e-9 and contact.gaps.min() >= -1e-9
 
@@ -173,10 +179,7 @@ def test_exchanges_that_go_in_a_circle_are_no_proof_that_no_state_is_consistent(
     lead from two closed to the next two for ever."""
     contact = Pressed(np.array([[1.0, 2.0, 0.0], [0.0, 1.0, 2.0], [2.0, 0.0, 1.0]]), np.ones(3))
     contact.data[0] = -1.0
-    settling = Settling(contact, 300, 1e-9)
-    contact.solve()
-    while settling(contact, 1.0)[0] > ANY and not settling.unsettled:
-        contact.solve()
+    settling = settled(contact)
     assert settling.unsettled == settling.cycles == 0
     assert contact.forces == pytest.approx(np.full(3, 1 / 3), rel=1e-12)
 
@@ -184,8 +187,5 @@ def test_exchanges_that_go_in_a_circle_are_no_proof_that_no_state_is_consistent(
 def test_a_contact_without_a_consistent_state_is_counted_and_ends():
     """Closed it pulls, open it has entered the wall."""
     contact = Pressed(-np.eye(1), np.ones(1))
-    settling = Settling(contact, 300, 1e-9)
-    contact.solve()
-    while settling(contact, 1.0)[0] > ANY and not settling.unsettled:
-        contact.solve()
+    settling = settled(contact)
     assert (settling.cycles, settling.unsettled) == (1, 0)
