@@ -49,13 +49,12 @@ def is_stale(file: Path) -> bool:
     return "digest" not in stored or bool(stored["digest"] != digest_of(stored["packages"], stored["settings"]))
 
 
-def confirm(file: Path, packages: Sequence[str] | None = None, **words: Any) -> None:
+def confirm(file: Path, packages: Sequence[str] | None = None) -> None:
     """Give ``file`` today's digest. Call it after a sample of it was measured again and found inside its bars.
 
-    packages : those of today, unless they are as written; words : entries whose text changes; their numbers are the
-    same.
+    packages : those of today, unless they are as written.
     """
-    stored = read(file) | words
+    stored = read(file)
     stored["packages"] = list(packages or stored["packages"])
     stored |= {"digest": digest_of(stored["packages"], stored["settings"]), "confirmed": today()}
     write_atomically(file, json_text(stored, indent=1) + "\n")

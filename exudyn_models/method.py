@@ -173,12 +173,8 @@ class ExudynModel(Part):
         save: Save = 200,
         progress: Progress | None = None,
     ) -> ImpactHistory:
-        """Follow ``impact`` to ``end_time`` (s); see :func:`exudyn_models.simulate`.
-
-        Supports and a wall along a part of the beam get the parts that suit the whole beam.
-        """
-        chosen = self.for_whole_beam(impact) if supports_or_plate(impact) else self
-        return simulate(impact, end_time=end_time, save=save, progress=progress, **made_of(chosen))
+        """Follow ``impact`` to ``end_time`` (s); see :func:`exudyn_models.simulate`."""
+        return simulate(impact, end_time=end_time, save=save, progress=progress, **made_of(self))
 
     def simulate_to_separation(
         self,
@@ -240,7 +236,8 @@ def simulate(
         on standard error says so.
     progress : called with the finished fraction.
     until : asked at every saved instant; the run ends with the first at which it says so.
-    parts : mesh, element and so on, the fields of :class:`exudyn_models.method.ExudynModel`.
+    parts : mesh, element and so on, the fields of :class:`exudyn_models.method.ExudynModel`. Open ones of a beam on
+        supports, or before a wall along a part of it, are those that suit the whole beam.
 
     Sums (energies, ``total_impulse``) are of both halves of the modelled beam; a half model's ``impulse`` is that of
     x ≥ 0, half of the total.
@@ -250,6 +247,8 @@ def simulate(
     where Exudyn's solver failed, contact states did not settle, or the state stopped being finite.
     """
     end, method = impact.checked_end_time(end_time), ExudynModel(**parts)
+    if supports_or_plate(impact):
+        method = method.for_whole_beam(impact)
     if reason := method.refuses(impact):
         raise InputError(reason)
     targets, chosen = saved_times(save, end), method.chosen(impact, end)

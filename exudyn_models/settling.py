@@ -97,7 +97,7 @@ class Settling:
         if contradictions < self._fewest:
             self._fewest, self._patience = contradictions, BLOCK
         if (before > 0) != (self._patience > 0) or self._patience == -PERSISTENCE:
-            self._tried, self._cycling = {}, False  # under another rule a state may well come back
+            self._forget()  # under another rule a state may well come back
         return self._patience > 0
 
     def _returns(self, closed: Flags, doubtful: Flags, force: float) -> bool:
@@ -105,11 +105,11 @@ class Settling:
         if self._doubtful is None or (doubtful & ~self._doubtful).any():
             # a state is told by the connectors that were corrected alone: others hover at the wall without force
             self._doubtful = doubtful if self._doubtful is None else doubtful | self._doubtful
-            self._tried, self._cycling = {}, False
+            self._forget()
         state = closed[self._doubtful].tobytes()
         if state in self._tried and self._patience > -PERSISTENCE:
             self._patience = 0 if self._patience > 0 else -PERSISTENCE
-            self._tried, self._cycling = {}, False
+            self._forget()
         elif state in self._tried:
             while not self._cycling and next(iter(self._tried)) != state:
                 del self._tried[next(iter(self._tried))]  # what led into the cycle, never to return
@@ -118,6 +118,10 @@ class Settling:
                 return True
         self._tried[state] = force
         return False
+
+    def _forget(self) -> None:
+        """No state counts as tried."""
+        self._tried, self._cycling = {}, False
 
     def _set(self, mbs: Any, closed: Flags) -> None:
         """Assume ``closed`` in the next repetition, whatever the gaps show."""

@@ -37,7 +37,6 @@ from bent_beam_programs.open_benchmark.score import resolution_ignored, score
 #: Default problems of ``bentbeam benchmark``: 0.5 ranks codes, 0.1 is the stress test of the first
 #: instants, then one point, and the three regimes of loads (pressed on, lifted off, under tension).
 STANDARD = ("leading-0.5", "leading-0.1", "point-2", "first-0.5-1-1-1", "first-0.5--1--1-0", "first-0.5--0.5-0-0-1")
-NO_HISTORIES = "no nodal histories or no gaps"
 AGAIN = ("not_installed", "invalid", "crashed")  # what may be the machine's fault, as a full disk, is asked anew
 
 
@@ -65,10 +64,15 @@ class Row:
             "not run here": self.seconds is None,
             self.score.brief: not self.score.completed,
             "numbers that no solver gives": bool(seen & {"too_smooth", "copies"}),
-            NO_HISTORIES: problem(self.problem).is_front and not self.score.raw,
+            "no nodal histories or no gaps": self.closed,
             "a problem whose answer is published": not self.drawn,
         }
         return next((why for why, holds in checks.items() if holds), "")
+
+    @property
+    def closed(self) -> bool:
+        """Whether it is two sums, which can be right by a table of answers, and cannot be looked into."""
+        return problem(self.problem).is_front and not self.score.raw
 
     @property
     def table(self) -> str:
@@ -133,8 +137,8 @@ def campaign(
 
 
 def _without_praise(row: Row) -> Row:
-    """Two sums can be right by a table of answers: they are clean only where they can be looked into."""
-    if row.declared_because != NO_HISTORIES:
+    """A row is clean only where it can be looked into."""
+    if not row.closed:
         return row
     kept = tuple(finding for finding in row.score.diagnosis if finding.name != "clean")
     return replace(row, score=replace(row.score, diagnosis=kept))
@@ -190,7 +194,8 @@ def declared_rows(files: Sequence[Path]) -> list[Row]:
         except ResultError as error:
             raise InputError(f"result: {error}") from None
         name, resolution = result.metadata.get("tool") or file.stem, result.metadata.get("resolution", "–")
-        rows.append(Row(str(name)[:40], result.problem.id, str(resolution)[:20], None, score(result)))
+        row = Row(str(name)[:40], result.problem.id, str(resolution)[:20], None, score(result))
+        rows.append(_without_praise(row))
     return rows
 
 

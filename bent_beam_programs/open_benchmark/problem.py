@@ -49,9 +49,9 @@ LADDER = {
     "chattering-ball": Rung("ball that comes to rest after infinitely many impacts", BALL | {"restitution": 0.5}, 4.0),
     # in contact from 0.5 to 2.5
     "bar": Rung("elastic bar that meets the wall end on and leaves", BAR | {"velocity": 1.0, "gap": 0.5} | FREE, 3.0),
-    # held at its far end, let go stretched: in contact from 1 to 2, 4 to 5, 7 to 8
+    # held at its far end, let go compressed: in contact from 1 to 2, 4 to 5, 7 to 8
     "released-bar": Rung(
-        "bar let go from stretched in front of the wall",
+        "compressed bar that is let go in front of the wall, its far end held",
         BAR | {"shape": "(length - x)/(2 length)", "far_end": "held"},
         8.5,
     ),

@@ -85,7 +85,7 @@ def small_picture(file: Path, width: int | None = None) -> bytes:
     stream = BytesIO()
     with Image.open(file) as image:
         size = image.size if width is None else (width, round(width * image.height / image.width))
-        small = image.convert("RGB").resize(size).quantize(COLOURS, Image.Quantize.MAXCOVERAGE)
+        small = image.convert("RGB").resize(size).quantize(COLOURS, Image.Quantize.MAXCOVERAGE, kmeans=1)
         small.save(stream, format="PNG", optimize=True)
     return stream.getvalue()
 

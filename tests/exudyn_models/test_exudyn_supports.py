@@ -11,7 +11,7 @@ from bent_beam.free_flight import has_left
 from bent_beam.measure.balance import balance_of
 from bent_beam.measure.whole_impact import whole_impact
 from bent_beam.meshes import UniformMesh
-from exudyn_models import ExudynModel
+from exudyn_models import ExudynModel, simulate
 from hermite_fe import HermiteFE
 
 HINGED = {"left_end": "hinged", "right_end": "hinged"}
@@ -41,6 +41,12 @@ def test_a_hinged_beam_swings_in_its_first_mode_and_a_clamped_one_in_its_own() -
         assert np.abs(moved[:, [0, -1]]).max() < 1e-15
         with pytest.raises(ValueError, match="supports bring the beam back"):
             method.simulate_to_separation(impact)
+
+
+def test_the_function_chooses_for_a_supported_beam_what_the_method_does() -> None:
+    impact = Impact(1.0, 1.0, 2.0, 0.0, 1.0, left_end="hinged", wall_stiffness=300.0, wall_from=1.0, wall_to=1.0)
+    function, method = (run(impact, end_time=1e-3, save=1) for run in (simulate, ExudynModel().simulate))
+    assert function.settings == method.settings and function.settings["element"]["viscosity"] == 0.0
 
 
 def test_a_beam_swung_on_an_elastic_stop_and_a_hinged_one_on_a_plate_are_those_of_the_other_path() -> None:

@@ -50,16 +50,21 @@ def _finished(outcomes: Sequence[Outcome]) -> list[tuple[Outcome, dict[str, Any]
     found: list[dict[str, Any]] = []
     for i, mark in enumerate(marks):
         before = marks[:i].count(mark)
+        dashes = ("-", "--", ":")[before // len(LINES) % 3]
         if mark is None:
             width = 2.2 - 1.5 * before / lines if lines > 1 else 1.6 - 0.8 * before
-            dashes = ("-", "--", ":")[before // len(LINES) % 3]
             found.append({"color": LINES[before % len(LINES)], "ls": dashes, "marker": "", "lw": width})
         elif marks.count(mark) == 1:
             found.append(style.mark(mark))
         else:  # several of one path differ in colour
             colour = style.SEQUENCE[before % len(style.SEQUENCE)]
-            found.append({**style.mark(mark), "color": colour, "ls": "-", "lw": 0.6})
+            found.append({**style.mark(mark), "color": colour, "ls": dashes, "lw": 0.6})
     return [(o, line) for o, line in zip(outcomes, found) if o.failure is None and o.time.size]
+
+
+def _end(outcomes: Sequence[Outcome]) -> float:
+    """When the longest run ends."""
+    return max(float(o.time[-1]) for o, _ in _finished(outcomes))
 
 
 def _thin(along: Array, line: dict[str, Any]) -> Any:
@@ -72,9 +77,10 @@ def _thin(along: Array, line: dict[str, Any]) -> Any:
 
 
 def geometry(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome]) -> None:
-    """Deflection y = −gap over x at the end of the run; the wall is the grey half plane below."""
-    runs = _finished(outcomes)
-    exact, end = runs[0][0].exact, float(runs[0][0].time[-1])
+    """Deflection y = −gap over x at the end of the longest runs; the wall is the grey half plane below."""
+    runs, end = _finished(outcomes), _end(outcomes)
+    runs = [(o, line) for o, line in runs if o.time[-1] > 0.9 * end]
+    exact = runs[0][0].exact
     edge = REACH * max(float(exact.front(end)), 0.25 * exact.impact.length_scale * math.sqrt(exact.tau(end)))
     gaps = np.concatenate([o.gap[o.x <= edge / REACH] for o, _ in runs])
     shown = 1.1 * float(exact.gap(np.array([edge]), end)[0])  # more would be empty
@@ -113,7 +119,7 @@ def _over_time(
     the run that is drawn before the first contact, in free flight. thin : where lines would hide one another.
     """
     runs = [(o, line, *curve(o, line)) for o, line in _finished(outcomes)]
-    exact, end = runs[0][0].exact, float(runs[0][0].time[-1])
+    exact, end = runs[0][0].exact, _end(outcomes)
     times = end * np.linspace(0.0, 1.0, 301)[1:] ** 2
     values = np.zeros(0) if theory is None else theory(exact, times)
     every = (values, *(y for *_, y in runs))
@@ -175,8 +181,7 @@ def banded(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome]) -> None:
     eight tenths of the filtered reaction.
     """
     reaction(sheet, axis, outcomes)
-    runs = _finished(outcomes)
-    end = float(runs[0][0].time[-1])
+    runs, end = _finished(outcomes), _end(outcomes)
     (st, _), (sy, _) = unit(end, "s"), unit(1.2 * float(runs[0][0].exact.side_reaction(0.02 * end)), "N")
     for o, line in runs:
         if o.steps is None:
