@@ -40,23 +40,15 @@ def without_tex(label: str) -> str:
 
 
 @dataclass
-class _Curve:
-    axis: Axes
-    series: str
-    x: NDArray[np.float64]
-    y: NDArray[np.float64]
-    quantity: str = ""
-
-
-@dataclass
 class Sheet:
     """One figure or table in the making, its data, and the numbers that go with it.
 
-    numbers : name with unit → number. page : text of a Markdown page, if one is written beside it.
+    curves : axis, series, x, y, and the quantity of y where it is not the axis's. numbers : name with unit → number.
+    page : text of a Markdown page, if one is written beside it.
     """
 
     figure_: Figure | None = None
-    curves: list[_Curve] = field(default_factory=list)
+    curves: list[tuple[Axes, str, NDArray[np.float64], NDArray[np.float64], str]] = field(default_factory=list)
     panels: dict[int, str] = field(default_factory=dict)
     rows: list[list[Any]] = field(default_factory=list)
     numbers: dict[str, float | None] = field(default_factory=dict)
@@ -100,7 +92,7 @@ class Sheet:
     def record(self, axis: Axes, x: ArrayLike, y: ArrayLike, series: str, quantity: str = "") -> None:
         """Remember data that was drawn by other means; ``quantity`` : of y, if not that of the axis."""
         places, values = np.ravel(np.asarray(x, float)), np.ravel(np.asarray(y, float))
-        self.curves.append(_Curve(axis, series, places, values, quantity))
+        self.curves.append((axis, series, places, values, quantity))
 
     def data(self, columns: Sequence[str], rows: Sequence[Sequence[Any]]) -> None:
         """A table for the CSV."""
@@ -131,12 +123,12 @@ class Sheet:
         writer.writerows([["" if v is None else v for v in row] for row in self.rows])
         if not self.rows:
             writer.writerow(["panel", "series", "x_quantity", "x", "y_quantity", "y"])
-        for curve in self.curves:
-            about = (self.panels.get(id(curve.axis), ""), without_tex(curve.series))
-            names = without_tex(curve.axis.get_xlabel()), curve.quantity or without_tex(curve.axis.get_ylabel())
-            for x, y in zip(curve.x, curve.y):
+        for axis, series, places, values, quantity in self.curves:
+            about = (self.panels.get(id(axis), ""), without_tex(series), without_tex(axis.get_xlabel()))
+            name = quantity or without_tex(axis.get_ylabel())
+            for x, y in zip(places, values):
                 if np.isfinite(x) and np.isfinite(y):
-                    writer.writerow([*about, names[0], f"{x:.9g}", names[1], f"{y:.9g}"])
+                    writer.writerow([*about, f"{x:.9g}", name, f"{y:.9g}"])
         return stream.getvalue()
 
     def save(self, out: Path, name: str, formats: Sequence[str] = ("png",)) -> list[Path]:
@@ -198,11 +190,9 @@ def item(name: str, *, beside: str = "", **parts: str) -> Callable[[Draw], Draw]
 def items(module: str, draw: Callable[..., None], rows: Iterable[tuple[Any, ...]]) -> None:
     """Register figures that one function draws: a row is id, title, caption, and what ``draw`` gets after the sheet."""
     for name, title, caption, *given in rows:
-
-        def drawn(sheet: Sheet, given: Sequence[Any] = given) -> None:
-            draw(sheet, *given)
-
-        ITEMS[name] = Item(name, title, caption, module, drawn)
+        ITEMS[name] = Item(
+            name, title, caption, module, lambda sheet, given=given: draw(sheet, *given)  # type: ignore[misc]
+        )
 
 
 def order(name: str) -> tuple[int, int, int, str]:

@@ -177,7 +177,7 @@ def test_free_motion_and_fast_layer_agree_in_the_contact_zone(name, panels, seri
 def test_a_figure_of_runs_has_a_column_a_mass_and_our_methods_on_theory() -> None:
     sheet = Sheet()
     run_figure(sheet, Series(10.0, 0.002, {"own": {}}), (contact_length, *REACTION[:1]))
-    curves = {(sheet.panels[id(c.axis)], c.series): (c.x, c.y) for c in sheet.curves}
+    curves = {(sheet.panels[id(axis)], series): (x, y) for axis, series, x, y, _ in sheet.curves}
     for panel in "abcd":  # contact length and reaction, lumped and consistent
         exact = curves[panel, "theory"]
         assert (panel, "own") in curves

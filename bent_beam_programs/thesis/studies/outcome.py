@@ -23,15 +23,13 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.measure.estimators import leading_order
 from bent_beam.measure.moments import moments
-from bent_beam_programs.thesis.studies.exact import Exact
+from bent_beam_programs.thesis.studies.exact import Array, Exact
 
-Array = NDArray[np.float64]
 WINDOWS = 50
 CUT_OFF = 0.04
 TOUCH = 1e-6  # of V₀t: smaller gaps are contact (the thesis takes 10⁻⁶ m, too much ahead of a thick front)

@@ -14,14 +14,12 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from numpy.typing import NDArray
 
 from bent_beam_programs.thesis.sheet import Sheet, legend_below
-from bent_beam_programs.thesis.studies.exact import Exact
+from bent_beam_programs.thesis.studies.exact import Array, Exact
 from bent_beam_programs.thesis.studies.outcome import Outcome
 from comparison.figures import style
 
-Array = NDArray[np.float64]
 Panel = Callable[[Sheet, Axes, Sequence[Outcome]], None]
 PREFIX = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M"}
 REACH = 1.25  # contact lengths shown
