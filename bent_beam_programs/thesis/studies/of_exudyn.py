@@ -22,8 +22,6 @@ RUNS: dict[str, tuple[float | None, tuple[float, float, float]]] = {  # label �
     **{f"D = {d:g}": (d, (STIFFNESS, d, RADIUS)) for d in (0.0, 0.3, 30.0)},
     **{f"ρ∞ = {r:g}": (r, (STIFFNESS, DAMPING, r)) for r in (0.0, 0.9, 1.0)},
 }
-TRIED = {"C": ("relative_stiffness", (1.0, 10.0, 100.0)), "D": ("relative_damping", (0.3, 3.0, 30.0))}
-"""Of a method: symbol → (field of its contact, values)."""
 # Slopes over the front are of order √τ, τ = t/t* (:class:`exudyn_models.geometry.TrueGeometry`): the end time sets them
 DURATIONS = (1e-3, 1e-2, 3e-2, 1e-1)
 TURN = 1.5  # rad
@@ -60,9 +58,8 @@ def penalty_variants(case: Case) -> list[Variant]:
 def penalty_vary(on: MethodOnCase) -> list[Variant]:
     """Stiffness and damping of the method's contact, in units of its elements' own."""
     found = [on.setting("as it is", on.method)]
-    for symbol, (name, tried) in TRIED.items():
-        found += on.over("contact", name, f"{symbol} = {{:g}}", tried)
-    return found
+    found += on.over("contact", "relative_stiffness", "C = {:g}", (1.0, 10.0, 100.0))
+    return found + on.over("contact", "relative_damping", "D = {:g}", (0.3, 3.0, 30.0))
 
 
 def cut(impact: Impact) -> Impact:

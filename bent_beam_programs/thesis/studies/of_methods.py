@@ -10,7 +10,6 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -51,8 +50,7 @@ class MethodOnCase:
     case: Case
 
     def setting(self, name: str, method: Method, value: float | None = None, **others: Any) -> Variant:
-        """A run with one value of the varied parameter. name : of the value, the same for all methods. value : as a
-        number, where it is one. others : impact and end_time where they are not the case's own."""
+        """A run with one value of the varied parameter, named alike for all methods. others : impact, end_time."""
         about: dict[str, Any] = {"impact": self.case.impact, "end_time": self.case.end_time} | others
         return Variant(self.method.label, method=method, value=value, setting=name, **about)
 
@@ -65,11 +63,6 @@ class MethodOnCase:
             raise NotVaried(f"{self.method.path} has no {name}")
         return dict(self.method.PARTS[name])
 
-    @cached_property
-    def chosen(self) -> Any:
-        """The method with all that it leaves open chosen for the case."""
-        return chosen_for(self.method, self.case.impact, self.case.end_time)
-
     def part(self, name: str, *, filled: bool = False) -> Any:
         """A part as the method has it; where it is left open, of the kind that is chosen for the case.
 
@@ -79,7 +72,7 @@ class MethodOnCase:
         own = getattr(self.method, name)
         if own is not None and not filled:
             return own
-        chosen = getattr(self.chosen, name)
+        chosen: Any = getattr(chosen_for(self.method, self.case.impact, self.case.end_time), name)
         if chosen is None:
             raise NotVaried(f"{self.method.path} chooses its {name} in the run: name one")
         if filled:
