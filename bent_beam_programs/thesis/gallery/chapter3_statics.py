@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from bent_beam_programs.thesis.gallery.drawing import NIL, plain_line
-from bent_beam_programs.thesis.sheet import Sheet, item
+from bent_beam_programs.thesis.sheet import Sheet, item, items
 from comparison.figures import style
 from hermite_fe import INTEGRATORS
 from hermite_fe.beam import HermiteBeam, shape_functions
@@ -24,8 +24,9 @@ PRINTED = (
 GRAVITY, HEIGHT, RESTITUTION = 9.81, 0.5, 0.9
 
 
-def static(sheet: Sheet, force: float, node: int, supports: dict[int, float], exact: np.ndarray) -> None:
-    """Deflection of 52 elements under a nodal force against the exact solution at the nodes."""
+def static(sheet: Sheet, force: float, node: int, supports: dict[int, float], shape: np.ndarray) -> None:
+    """Deflection of 52 elements under a nodal force against the exact one at the nodes, P/EI times ``shape`` (m³)."""
+    exact = force * shape / AXIS_STIFFNESS
     beam = HermiteBeam(NODES, AXIS_STIFFNESS, 1.0)
     found = beam.static(force * (np.arange(beam.dofs) == 2 * node), supports)[0::2]
     with sheet.figure() as (_, axis):
@@ -41,27 +42,18 @@ def static(sheet: Sheet, force: float, node: int, supports: dict[int, float], ex
     }
 
 
-@item("fig-3.3", printed=PRINTED)
-def supported(sheet: Sheet) -> None:
-    """Deflection of a beam on two supports
-
-    Beam on two supports, L = 5 m, P = 5·10⁵ N in the middle, 52 elements, against (3.1.12). {printed}. The thesis's
-    caption says "encastre"; its text blocks the deflection alone, as here.
-    """
-    s, force = np.minimum(NODES, LENGTH - NODES), 5e5
-    exact = force * s * (3.0 * LENGTH**2 - 4.0 * s**2) / (48.0 * AXIS_STIFFNESS)
-    static(sheet, force, ELEMENTS // 2, {0: 0.0, 2 * ELEMENTS: 0.0}, exact)
-
-
-@item("fig-3.5", printed=PRINTED)
-def cantilever(sheet: Sheet) -> None:
-    """Deflection of a cantilever
-
-    Cantilever clamped at x = L, P = 8·10⁵ N at x = 0, L = 5 m, 52 elements, against (3.1.15). {printed}.
-    """
-    force = 8e5
-    exact = force * (NODES**3 / 6.0 - LENGTH**2 * NODES / 2.0 + LENGTH**3 / 3.0) / AXIS_STIFFNESS
-    static(sheet, force, 0, {2 * ELEMENTS: 0.0, 2 * ELEMENTS + 1: 0.0}, exact)
+FROM_SUPPORT = np.minimum(NODES, LENGTH - NODES)
+items(__name__, static, (
+    ("fig-3.3", "Deflection of a beam on two supports",
+     f"Beam on two supports, L = 5 m, P = 5·10⁵ N in the middle, 52 elements, against (3.1.12). {PRINTED}. The "
+     'thesis\'s caption says "encastre"; its text blocks the deflection alone, as here.',
+     5e5, ELEMENTS // 2, {0: 0.0, 2 * ELEMENTS: 0.0},
+     FROM_SUPPORT * (3.0 * LENGTH**2 - 4.0 * FROM_SUPPORT**2) / 48.0),
+    ("fig-3.5", "Deflection of a cantilever",
+     f"Cantilever clamped at x = L, P = 8·10⁵ N at x = 0, L = 5 m, 52 elements, against (3.1.15). {PRINTED}.",
+     8e5, 0, {2 * ELEMENTS: 0.0, 2 * ELEMENTS + 1: 0.0},
+     NODES**3 / 6.0 - LENGTH**2 * NODES / 2.0 + LENGTH**3 / 3.0),
+))  # fmt: skip
 
 
 def ball(step: float, end: float) -> tuple[np.ndarray, np.ndarray]:

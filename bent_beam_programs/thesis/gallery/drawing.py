@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 from matplotlib import colormaps
 from matplotlib.axes import Axes
-from matplotlib.collections import QuadMesh
 from matplotlib.colors import LogNorm
 
 from bent_beam.history import ImpactHistory
@@ -154,39 +153,32 @@ def cell_forces(history: ImpactHistory) -> CellForces:
 
 
 def draw_maps(sheet: Sheet, histories: Mapping[str, ImpactHistory], rows: int, height: float) -> list[CellForces]:
-    """A map of each history, two in a row, its name beside the letter; returns their cells."""
+    """A map of each history, two in a row, its name beside the letter; returns their cells.
+
+    Reaction (N) of both sides over x and √t (so that the front is a straight line), mirrored about x = 0. The CSV has,
+    for each cell of time, place and reaction of the cells that carry any.
+    """
     cells = [cell_forces(history) for history in histories.values()]
     largest = max(float(c.force.max()) for c in cells)
-    norm = LogNorm(largest / 10.0**DECADES, largest)
+    norm, line = LogNorm(largest / 10.0**DECADES, largest), plain_line("vermilion", width=0.6)
+    colours = colormaps["YlGnBu"].with_extremes(under="#F4F4EC")
     with sheet.figure(rows, 2, height=height, texts=list(histories)) as (fig, axes):
         for axis, history, found in zip(axes.flat, histories.values(), cells):
-            drawn = one_map(sheet, axis, history, found, norm)
+            exact, end = Exact(history.impact), float(history.time[-1])
+            places, times, force = found.places, found.times, found.force
+            st, mt = unit(end, "s")
+            whole = np.concatenate([-places[:0:-1], places])
+            pushing = np.ma.masked_less_equal(np.hstack([force[:, ::-1], force]), 0.0)
+            drawn = axis.pcolormesh(whole, st * times, pushing, norm=norm, cmap=colours, rasterized=True)
+            middle = 0.5 * (places[1:] + places[:-1])
+            for row, at in zip(force, st * 0.5 * (times[1:] + times[:-1])):
+                carried = row > 0.0
+                sheet.record(axis, middle[carried], row[carried], f"t = {at:.4g} {mt}", "reaction (N)")
+            t = min(end, exact.end_of_contact) * np.linspace(0.0, 1.0, 200) ** 2
+            for side in (-1.0, 1.0):
+                sheet.line(axis, side * exact.front(t), st * t, series=f"theory, side {side:+.0f}", **line)
+            axis.set_yscale("function", functions=studied.ROOT)
+            axis.grid(False)
+            axis.set(xlabel="$x$  (m)", ylabel=f"$t$  ({mt})", xlim=(-places[-1], places[-1]), ylim=(0.0, st * end))
         fig.colorbar(drawn, ax=axes, label="reaction of a cell  (N)", pad=0.02, extend="min", aspect=30)
     return cells
-
-
-def one_map(sheet: Sheet, axis: Axes, history: ImpactHistory, cells: CellForces, norm: LogNorm) -> QuadMesh:
-    """Reaction (N) of both sides over x and √t (so that the front is a straight line), mirrored about x = 0.
-
-    The CSV holds, for each cell of time, place and reaction of the cells that carry any.
-    """
-    exact, end = Exact(history.impact), float(history.time[-1])
-    places, times, force = cells.places, cells.times, cells.force
-    st, mt = unit(end, "s")
-    whole = np.concatenate([-places[:0:-1], places])
-    pushing = np.ma.masked_less_equal(np.hstack([force[:, ::-1], force]), 0.0)
-    colours = colormaps["YlGnBu"].with_extremes(under="#F4F4EC")
-    drawn = axis.pcolormesh(whole, st * times, pushing, norm=norm, cmap=colours, rasterized=True)
-    axis.set(xlabel="$x$  (m)", ylabel=f"$t$  ({mt})")
-    middle = 0.5 * (places[1:] + places[:-1])
-    for row, at in zip(force, st * 0.5 * (times[1:] + times[:-1])):
-        carried = row > 0.0
-        sheet.record(axis, middle[carried], row[carried], f"t = {at:.4g} {mt}", "reaction (N)")
-    t = min(end, exact.end_of_contact) * np.linspace(0.0, 1.0, 200) ** 2
-    for side in (-1.0, 1.0):
-        line = plain_line("vermilion", width=0.6)
-        sheet.line(axis, side * exact.front(t), st * t, series=f"theory, side {side:+.0f}", **line)
-    axis.set_yscale("function", functions=studied.ROOT)
-    axis.grid(False)
-    axis.set(xlim=(-places[-1], places[-1]), ylim=(0.0, st * end))
-    return drawn
