@@ -190,9 +190,11 @@ def item(name: str, *, beside: str = "", **parts: str) -> Callable[[Draw], Draw]
 def items(module: str, draw: Callable[..., None], rows: Iterable[tuple[Any, ...]]) -> None:
     """Register figures that one function draws: a row is id, title, caption, and what ``draw`` gets after the sheet."""
     for name, title, caption, *given in rows:
-        ITEMS[name] = Item(
-            name, title, caption, module, lambda sheet, given=given: draw(sheet, *given)  # type: ignore[misc]
-        )
+
+        def drawn(sheet: Sheet, given: Sequence[Any] = given) -> None:
+            draw(sheet, *given)
+
+        ITEMS[name] = Item(name, title, caption, module, drawn)
 
 
 def order(name: str) -> tuple[int, int, int, str]:
