@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from bent_beam_programs.thesis.gallery.drawing import beam_panel, plain_line
-from bent_beam_programs.thesis.sheet import Sheet, item
+from bent_beam_programs.thesis.sheet import Sheet, item, items
 from comparison.figures import style
 from comparison.readable import readable
 from theory import ImpactFields, contact_parameters
@@ -89,36 +89,29 @@ def first_order_zone(sheet: Sheet) -> None:
             }
 
 
-def two_columns(sheet: Sheet, times: Sequence[float], high: float, load: tuple[float, ...], epsilon: float) -> None:
-    """The beam at several times for κ = 0.5 (left) and κ = 2 (right)."""
+def two_columns(sheet: Sheet, times: Sequence[float], high: float, load: tuple[float, ...] = ()) -> None:
+    """The beam at several times for κ = 0.5 (left) and κ = 2 (right); λ₁ and r₁ where there is a load."""
     shown = [(tau, kappa, low) for tau in times for kappa, low in ((0.5, -0.6), (2.0, -1.6))]
     texts = [rf"$\kappa = {kappa}$, $\tau = {tau}$" for tau, kappa, _ in shown]
     with sheet.figure(3, 2, height=6.4, texts=texts, legend=4) as (_, axes):
         for axis, (tau, kappa, low) in zip(axes.flat, shown):
-            fields = ImpactFields(contact_parameters(kappa, *load), epsilon=epsilon)
+            fields = ImpactFields(contact_parameters(kappa, *load), epsilon=EPSILON if load else 0.0)
             beam_panel(sheet, axis, fields, tau, (low, high))
+    if load:
+        found = contact_parameters(0.5, *load)
+        sheet.numbers |= {"λ₁ for κ = 0.5": float(found.lambda1), "r₁ for κ = 0.5": float(found.r1)}
 
 
-@item("fig-2.9")
-def leading(sheet: Sheet) -> None:
-    """A beam against the wall, leading order
-
-    Leading order with ν = 1: κ = 0.5, contact spreads (left); κ = 2, contact stays at the middle (right). The wall is
-    grey; triangles are the contact points ±λ₀√τ, λ₀(0.5) = 1.0189 and λ₀(2) = 0.
-    """
-    two_columns(sheet, (0.1, 0.25, 0.5), 0.65, (), 0.0)
-
-
-@item("fig-2.14")
-def first_order(sheet: Sheet) -> None:
-    """A beam against the wall, first order
-
-    First order with ν = 1, α = ψ = 1, χ = 0, ε = 0.1: κ = 0.5 (left) and κ = 2 (right). For κ = 0.5 the zone carries
-    the uniform reaction ε(α + ψ) = 0.2.
-    """
-    two_columns(sheet, (0.1, 0.25, 0.35), 0.5, (1.0, 1.0), EPSILON)
-    found = contact_parameters(0.5, 1.0, 1.0)
-    sheet.numbers |= {"λ₁ for κ = 0.5": float(found.lambda1), "r₁ for κ = 0.5": float(found.r1)}
+items(__name__, two_columns, (
+    ("fig-2.9", "A beam against the wall, leading order",
+     "Leading order with ν = 1: κ = 0.5, contact spreads (left); κ = 2, contact stays at the middle (right). The wall "
+     "is grey; triangles are the contact points ±λ₀√τ, λ₀(0.5) = 1.0189 and λ₀(2) = 0.",
+     (0.1, 0.25, 0.5), 0.65),
+    ("fig-2.14", "A beam against the wall, first order",
+     "First order with ν = 1, α = ψ = 1, χ = 0, ε = 0.1: κ = 0.5 (left) and κ = 2 (right). For κ = 0.5 the zone "
+     "carries the uniform reaction ε(α + ψ) = 0.2.",
+     (0.1, 0.25, 0.35), 0.5, (1.0, 1.0)),
+))  # fmt: skip
 
 
 @item("fig-2.17")

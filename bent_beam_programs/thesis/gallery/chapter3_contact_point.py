@@ -53,19 +53,7 @@ def evolution(sheet: Sheet, contact: str) -> None:
             sheet.line(axis, places, flat, series=f"theory, t = {readable(last, 3)} s", **style.THEORY)
             sheet.numbers[f"largest lift inside the zone (mm), {mass} mass"] = lift = 1e3 * found.lift
             style.wall_below(axis, -1.4 * lift, 0.25 * lift)
-
-
-@item("fig-3.23", shown=SHOWN)
-def middles(sheet: Sheet) -> None:
-    """Middle method: geometry
-
-    Geometry at several times, contact at element middles; {shown}, both masses, each with its own axis. Triangles are
-    theory's contact points at the times of the lines. The thesis's lift is of the order of 1.7 mm; with middles of
-    straight lines between the nodes, as 3.3.5 words it, the numbers are those below. The double detachment is
-    numerical, as the thesis says: theory's beam lies flat on the wall.
-    """
-    evolution(sheet, "middle")
-    for mass in MASSES:
+    for mass in MASSES if contact == "middle" else ():
         straight = run("straight", mass)
         sheet.numbers |= {
             f"largest lift (mm), straight lines, {mass} mass": 1e3 * straight.lift,
@@ -73,17 +61,18 @@ def middles(sheet: Sheet) -> None:
         }
 
 
-@item("fig-3.24", shown=SHOWN)
-def nodes(sheet: Sheet) -> None:
-    """Node method: geometry
-
-    Geometry at several times, contact at nodes; {shown}, both masses, each with its own axis. Triangles are theory's
-    contact points at the times of the lines. The thesis's lift is of the order of 0.17 mm, a tenth of its middles': so
-    it is with lumped masses, while with the consistent matrix nodes and middles lift alike.
-    """
-    evolution(sheet, "node")
-
-
+EVOLUTION = f"{SHOWN}, both masses, each with its own axis. Triangles are theory's contact points at the lines' times"
+items(__name__, evolution, (
+    ("fig-3.23", "Middle method: geometry",
+     f"Geometry at several times, contact at element middles; {EVOLUTION}. The thesis's lift is of the order of 1.7 "
+     "mm; with middles of straight lines between the nodes, as 3.3.5 words it, the numbers are those below. The double "
+     "detachment is numerical, as the thesis says: theory's beam lies flat on the wall.",
+     "middle"),
+    ("fig-3.24", "Node method: geometry",
+     f"Geometry at several times, contact at nodes; {EVOLUTION}. The thesis's lift is of the order of 0.17 mm, a tenth "
+     "of its middles': so it is with lumped masses, while with the consistent matrix nodes and middles lift alike.",
+     "node"),
+))  # fmt: skip
 items(__name__, compare, (
     ("fig-3.25", "Nodes and middles: contact length",
      f"Contact length until τ = 0.1 (a), and less theory's (b), nodes and middles with both masses; {SHOWN}. As the "

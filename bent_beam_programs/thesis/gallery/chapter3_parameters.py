@@ -174,11 +174,11 @@ def table_nodes(growth: float) -> np.ndarray:
     return even if growth == 1.0 else GradedMesh(2.5e-3, growth, size_ratio=1e6).nodes(25.0)
 
 
-def count_of(curvature: float, duration: float, *, square: bool = False) -> int:
-    """Elements of the whole beam by the thesis's rules (3.3.2), Δx = 2.5·10⁻³ m: a uniform zone of twice the contact
-    zone, or a square one over the contact zone.
+def count_of(curvature: float, *, square: bool = False) -> int:
+    """Elements of the whole beam until τ = 0.1 by the thesis's rules (3.3.2), Δx = 2.5·10⁻³ m: a uniform zone of twice
+    the contact zone, or a square one over the contact zone.
     """
-    given = case(curvature, duration)
+    given = case(curvature, 0.1)
     settings, exact = thesis_settings(given.impact, given.end_time), Exact(given.impact)
     zone = float(exact.front(given.end_time))
     laid: Mesh = GradedMesh(2.5e-3, settings.growth, zone=2.0 * zone)

@@ -38,7 +38,6 @@ def plain_line(colour: str, dashes: str = "-", width: float = 1.0, **drawn: Any)
     return {"color": style.COLOURS[colour], "lw": width, "ls": dashes, **drawn}
 
 
-FREE, FAST = plain_line("grey", "--"), plain_line("sky", "-.")
 NIL, GUIDE = plain_line("grey", width=0.5), plain_line("grey", ":", 0.6)
 """Thin lines across an axis: where a quantity is nil, and at a place."""
 
@@ -123,9 +122,9 @@ def beam_panel(
         for y in (fields.slow_motion(half, tau).deflection, fields.fast_layer(half, tau).deflection)
     )
     axis.set(xlabel=r"$\xi$  (1)", ylabel=r"deflection $w$  (1)", xlim=(-reach, reach))
-    sheet.line(axis, xi, free, series="free motion", **FREE)
+    sheet.line(axis, xi, free, series="free motion", **plain_line("grey", "--"))
     if zoom is None:
-        sheet.line(axis, xi, layer, series=r"fast layer $\eta$", **FAST)
+        sheet.line(axis, xi, layer, series=r"fast layer $\eta$", **plain_line("sky", "-."))
     sheet.line(axis, xi, free - layer, series="beam", **style.THEORY)
     mark = plain_line("vermilion", "", marker="v", ms=5, clip_on=False)
     sheet.line(axis, np.unique([-front, front]), 0.0, series="contact points", **mark)

@@ -22,7 +22,7 @@ from bent_beam_programs.thesis.studies.first_order_case import FITTED, fitted
 from bent_beam_programs.thesis.studies.numerical import NAMES
 from bent_beam_programs.thesis.studies.outcome import outcome_of
 from bent_beam_programs.thesis.studies.panels import contact_length, geometry
-from bent_beam_programs.thesis.studies.thesis import CONSISTENT, MASSES, THESIS_MASS, thesis_settings
+from bent_beam_programs.thesis.studies.thesis import CONSISTENT, MASSES, thesis_settings
 from comparison.figures import style
 from comparison.readable import readable
 from hermite_fe import CONTACTS, HermiteFE
@@ -30,13 +30,9 @@ from hermite_fe.contacts import impact_coupling
 from hermite_fe.masses import LumpedMass, Mass
 
 ROTARY = (16.0, 24.0, 32.0, 50.0, 105.0, 420.0)  # 1/r of the lumped masses of the coupling figure
-CANDIDATES = {  # mass matrices that the thesis's numbers were tried on; sources in hermite_fe.masses.LumpedMass
-    "consistent": CONSISTENT,
-    "lumped, r = 1/24": LumpedMass(1.0 / 24.0),
-    "lumped, r = 1/78": LumpedMass(1.0 / 78.0),
-    "lumped, r = 1/105": THESIS_MASS,
-    "lumped, r = 1/420": LumpedMass(1.0 / 420.0),
-}
+# mass matrices that the thesis's numbers were tried on; sources in hermite_fe.masses.LumpedMass
+CANDIDATES: dict[str, Mass] = {"consistent": CONSISTENT}
+CANDIDATES |= {f"lumped, r = 1/{n}": LumpedMass(1.0 / n) for n in (24, 78, 105, 420)}
 
 
 @item("extra-uniform")

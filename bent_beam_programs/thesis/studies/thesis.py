@@ -33,8 +33,6 @@ from hermite_fe.masses import ConsistentMass, LumpedMass, Mass
 from self_similar_fe import SelfSimilarFE
 
 Progress = Callable[[int, int], None]
-GROWTH, RADIUS = 1.25, 0.8
-DECADES = 2.0
 CONSISTENT = ConsistentMass()  # (3.1.8)
 THESIS_MASS = LumpedMass(rotary=1.0 / 105.0)
 """Half an element at each node and the 4l²/420 that (3.1.8) has on its rotation: of the lumpings tried, the one whose
@@ -60,8 +58,8 @@ class Settings:
     element_length: float
     time_step: float
     zone: float
-    growth: float = GROWTH
-    spectral_radius: float = RADIUS
+    growth: float = 1.25
+    spectral_radius: float = 0.8
     contact: str = "middle"
     restitution: float = 0.0
     hold: int = 0
@@ -103,8 +101,7 @@ class Variant:
     """One run to be made.
 
     reference : a method to compare the others with, drawn with the mark of its path.
-    value : of the varied parameter, if a number. save : instants to keep (``None``: :func:`saved_times`).
-    setting, refine : see :class:`Outcome`.
+    save : instants to keep (``None``: :func:`saved_times`). value, setting, refine : see :class:`Outcome`.
     """
 
     label: str
@@ -149,7 +146,7 @@ def references(impact: Impact, end_time: float) -> list[Variant]:
     """
     endless = SelfSimilarFE().chosen_for(impact, end_time)
     if Exact(impact).leading and endless.mesh is not None:  # more decades change nothing, and cost
-        endless = dataclasses.replace(endless, mesh=dataclasses.replace(endless.mesh, decades=DECADES))
+        endless = dataclasses.replace(endless, mesh=dataclasses.replace(endless.mesh, decades=2.0))
     methods: tuple[Method, ...] = (HermiteFE(), endless)
     return [Variant(m.label, impact, end_time, m, reference=True) for m in methods]
 
