@@ -32,7 +32,6 @@ MEASURES = {"lambda0": "λ₀", "r0": "r₀", "lambda1": "λ₁", "r1": "r₁", 
 MARKS = "osD^vP*<>hp8d"
 SMALLEST = 1e-7  # relative error that a figure still shows
 TEMPLATES = Path(__file__).parent / "templates"
-IN_SHORT = ("lambda0", "r0", "restitution", "impulse_error", "peak_force", "peak_time")  # errors where no loads act
 CONVERGED = 0.002  # relative error on the finest mesh that a converging code reaches (strict codes do)
 
 WORDS = {
@@ -46,7 +45,7 @@ WORDS = {
 } | {name: rung.words for name, rung in LADDER.items()}
 
 
-def document(rows: Sequence[Row], adapters: Sequence[Adapter], seed: int | None = None) -> dict[str, Any]:
+def document(rows: Sequence[Row], adapters: Sequence[Adapter], seed: int | None) -> dict[str, Any]:
     """All of the page as JSON. ``seed`` : of the drawn problems."""
     return {
         "format": "beam-impact benchmark 2",
@@ -87,7 +86,7 @@ def errors_table(rows: Sequence[Row], solvers: Sequence[str]) -> str:
 
 
 def _in_short(row: Row) -> str:
-    wanted = LOADED if problem(row.problem).kind == "first" else IN_SHORT
+    wanted = LOADED if problem(row.problem).kind == "first" else MEASURES
     known = [name for name in wanted if name in row.score.measured]
     if not any(_error(row, name) is not None for name in known):
         return row.score.brief
@@ -139,13 +138,10 @@ def _regime(asked: Problem) -> str:
     return "lift-off" if alpha + psi < 0.0 else "pressed"
 
 
-def write_page(
-    rows: Sequence[Row], adapters: Sequence[Adapter], out: Path, about: dict[str, Any] | None = None
-) -> Path:
+def write_page(rows: Sequence[Row], adapters: Sequence[Adapter], out: Path, about: dict[str, Any]) -> Path:
     """Write ``index.html``, the same as ``benchmark.json``, the errors of either table (``errors-TABLE.md``, and
     ``errors-TABLE-given.md`` on the given mesh) and its figures (``sheets/TABLE/PROBLEM-MEASURE.svg``); returns the
     page. ``about`` : :func:`document` of both."""
-    about = about or document(rows, adapters)
     solvers = list(dict.fromkeys([*(a.name for a in adapters), *(row.solver for row in rows)]))
     tables = {name: [row for row in rows if row.table == name] for name in ("run here", "self-declared")}
     places = {name: name.replace(" ", "-") for name in tables}

@@ -14,18 +14,17 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import PPoly
 
 from bent_beam.stored import read
 from bent_beam_programs.open_benchmark.problem import Problem
+from bent_beam_programs.open_benchmark.result import Array
 
 BOUNCES = Path(__file__).with_name("bounce_reference.json")
 REFERENCES = Path(__file__).with_name("references.json")
 SCHEMA = "beam-impact-references/2"
 POWERS = {"time": 1.0, "fourth root of time": 0.25}  # of the variable that J(t) is a piecewise polynomial of
 stored = cache(read)
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
