@@ -1,10 +1,8 @@
 """The main job's result: every method matched with the theory, as one HTML page that needs no network.
 
 The page tells the story first: the problem, the answer, how well each path has it, the verdicts on the thesis, what to
-believe; then numbers and studies. ``write_report`` computes the rows (:mod:`.rows`), the drill pipe (:mod:`.whole`) and
-a few impacts to look at (:mod:`.impacts`), takes the parameter studies, the printed numbers and the sheets of work and
-precision as they are stored, and puts all of it into ``templates/report.html.j2``. Whatever fails is named on the
-page, and the page is written all the same.
+believe; then numbers and studies. The parameter studies, the printed numbers and the sheets of work and precision are
+taken as they are stored. Whatever fails is named on the page, and the page is written all the same.
 """
 
 from __future__ import annotations
@@ -70,8 +68,6 @@ def write_report(
     progress: Callable[[int, int], None] = lambda done, total: None,
 ) -> dict[str, Any]:
     """Compute everything and write ``out/index.html``, with its rows and still pictures in ``out/data``.
-
-    methods : to report on. questions : rows to ask for. progress : called with (done, total) as rows finish.
 
     Returns ``page``, ``files``, ``headline``, ``failures`` (JSON-ready) and ``rows`` (their number).
     A row that fails is listed, not raised.

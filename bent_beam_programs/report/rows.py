@@ -20,7 +20,6 @@ LEADING = (1 / 100, 1 / 20, 1 / 4, 1 / 2, 0.8)  # a thinner front takes half a m
 MIDDLE = 0.5
 ALONG = (0.25, MIDDLE, 0.8)  # κ/ν of first order
 FIRST: tuple[First, ...] = ((4, 0, 0, 0), (-1, -1, 0, 0))  # a pressed zone and a lifting one
-REFINES = (0.5, 1.0)
 THIN = 0.02  # κ/ν; below it the front is so thin that it is a case of its own
 
 
@@ -29,7 +28,7 @@ def true_minus(text: str) -> str:
     return text.replace("-", "−")
 
 
-def report_questions(methods: Sequence[Method], refines: Sequence[float] = REFINES) -> list[MatchQuestion]:
+def report_questions(methods: Sequence[Method], refines: Sequence[float]) -> list[MatchQuestion]:
     """Every row of the report, few enough for two minutes.
 
     Leading order over κ/ν; two loads of first order at three κ/ν; convergence at κ/ν = 0.5. The longest come first, so
@@ -91,10 +90,15 @@ class Cell:
 
 @dataclass(frozen=True)
 class TableRow:
-    """A row of the report's tables with its cells."""
+    """A row of the report's tables."""
 
     row: MatchRow
-    cells: tuple[Cell, ...]
+
+    @property
+    def cells(self) -> list[Cell]:
+        """What the row is about: λ₁ and r₁ where it has them, λ₀ and r₀ otherwise."""
+        numbers = {name: number for name, number in self.row.compared().items() if number.covered is not None}
+        return [Cell(name, one, tolerance(name, self.row.kappa_over_nu)) for name, one in numbers.items()]
 
     @property
     def ratio_text(self) -> str:
@@ -109,12 +113,6 @@ class TableRow:
         return true_minus("(" + ", ".join(f"{v:g}" for v in self.row.first) + ")")
 
 
-def table_row(row: MatchRow) -> TableRow:
-    """A row with the cells that it is about: λ₁ and r₁ where it has them, λ₀ and r₀ otherwise."""
-    numbers = {name: number for name, number in row.compared().items() if number.covered is not None}
-    return TableRow(row, tuple(Cell(n, c, tolerance(n, row.kappa_over_nu)) for n, c in numbers.items()))
-
-
 def labels(rows: Iterable[MatchRow]) -> list[str]:
     """Labels of the methods, in order: those of this project first."""
     found = {r.label: r.path for r in rows}
@@ -125,7 +123,7 @@ def _at_own_resolution(rows: Iterable[MatchRow], *, first: bool) -> list[TableRo
     """Rows of leading or first order at the methods' own resolution, by κ/ν, (α, ψ, χ, N) and method."""
     chosen = [r for r in rows if r.of_first_order == first and r.refine == 1.0 and r.reason is None]
     order = {label: i for i, label in enumerate(labels(chosen))}
-    return [table_row(r) for r in sorted(chosen, key=lambda r: (r.kappa_over_nu, r.first, order[r.label]))]
+    return [TableRow(r) for r in sorted(chosen, key=lambda r: (r.kappa_over_nu, r.first, order[r.label]))]
 
 
 leading_rows = partial(_at_own_resolution, first=False)

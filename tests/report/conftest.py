@@ -39,7 +39,7 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> SimpleNamespace:
         patch.setattr(page, "pipe_prediction", lambda store: pipe())
         patch.setattr(page, "stored_studies", lambda: stored)
         methods = methods_of(PATHS)
-        asked, store = report_questions(methods), RunStore(None)
+        asked, store = report_questions(methods, (0.5, 1.0)), RunStore(None)
         found = page.write_report(folder, methods, asked, store=store, progress=lambda *of: seen.append(of))
     file = folder / "index.html"
     return SimpleNamespace(found=found, seen=seen, file=file, text=file.read_text(), nasty=nasty, studies=stored)

@@ -14,12 +14,12 @@ from bent_beam_programs.report.impacts import FRAMES, SHOWN, acceleration_rows, 
 from bent_beam_programs.report.page import Content, render
 from bent_beam_programs.report.rows import (
     PATHS,
+    TableRow,
     first_order_rows,
     headline,
     leading_rows,
     report_questions,
     summary,
-    table_row,
 )
 from bent_beam_programs.report.studies import stored_numbers
 from bent_beam_programs.report.whole import TIMES
@@ -107,7 +107,7 @@ def test_report_is_written_when_rows_fail(written: Any, text: str) -> None:
 
 
 def test_questions_ask_every_method_the_same() -> None:
-    asked = report_questions(methods_of(PATHS))
+    asked = report_questions(methods_of(PATHS), (0.5, 1.0))
     hermite, endless, exudyn = (
         {(q.kappa_over_nu, q.first, q.refine) for q in asked if q.method.label == label}
         for label in ("Hermite", "Self-similar", "Exudyn")
@@ -117,7 +117,7 @@ def test_questions_ask_every_method_the_same() -> None:
 
 @pytest.mark.parametrize(("off", "grade"), [(2e-4, "good"), (8e-4, "fair"), (2e-3, "poor"), (2e-2, "bad")])
 def test_grade_is_error_against_tolerance(off: float, grade: str) -> None:
-    cells = table_row(row("hermite", 0.25, None, off)).cells
+    cells = TableRow(row("hermite", 0.25, None, off)).cells
     assert [c.grade for c in cells] == [grade, grade]
     assert [c.error for c in cells] == pytest.approx([off, -off])
     assert cells[0].error_text.startswith("+") and cells[1].error_text.startswith("−")
