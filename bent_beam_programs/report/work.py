@@ -25,20 +25,20 @@ from comparison.store import RunStore
 STORED = Path(__file__).with_name("stored")
 LISTS = EXAMPLES / "methods"
 KAPPA = 0.5
+LIMIT = 120.0  # s, for one row
 KEPT = ("label", "path", "kappa_over_nu", "alpha", "psi", "chi", "axial", "refine", "lambda0", "r0", "lambda1", "r1",
         "lift", "pull", "seconds", "steps", "reason")  # fmt: skip
 
 
 @dataclass(frozen=True)
 class Measurement:
-    """What is measured. methods : files in cases/methods; limit : s, for one row."""
+    """What is measured. methods : files in cases/methods."""
 
     name: str
     title: str
     methods: tuple[str, ...]
     refines: tuple[float, ...]
     firsts: tuple[First, ...] = ()
-    limit: float = 120.0
 
     @property
     def command(self) -> str:
@@ -46,7 +46,7 @@ class Measurement:
         methods = " ".join(f"--methods cases/methods/{file}" for file in self.methods)
         firsts = "".join(f" --first-order={','.join(f'{v:g}' for v in first[:3])}" for first in self.firsts)
         asked = f"bentbeam match {methods} --kappa-over-nu {KAPPA:g}{firsts}"
-        return f"{asked} --refine {','.join(f'{r:g}' for r in self.refines)} --limit {self.limit:g} --jobs 2 --out out"
+        return f"{asked} --refine {','.join(f'{r:g}' for r in self.refines)} --limit {LIMIT:g} --jobs 2 --out out"
 
 
 MEASUREMENTS = (
@@ -55,19 +55,6 @@ MEASUREMENTS = (
     Measurement("work-precision-first-order", "integrators, first order", ("first_order.toml",), (0.5, 1.0),
                 ((4.0, 0.0, 0.0, 0.0),)),
 )  # fmt: skip
-
-
-def store_measurement(measurement: Measurement, *, jobs: int = 1) -> Path:
-    """Measure and write rows and picture to ``stored/``; returns the file of rows."""
-    methods = methods_from_file(*(LISTS / file for file in measurement.methods))
-    asked = questions(methods, [KAPPA], measurement.firsts, measurement.refines)
-    rows = match(asked, store=RunStore.usual(), jobs=jobs, limit=measurement.limit)
-    draw_work_precision(rows, STORED)
-    file, what = STORED / f"{measurement.name}.json", f"work and precision: {measurement.title}"
-    made_by = f"python -m bent_beam_programs.report.work {measurement.name}"
-    settings = {row.label: row.settings for row in rows}
-    data = [{name: row.to_dict()[name] for name in KEPT} for row in rows]
-    return stored.write(file, what, made_by, CODE, settings, {"command": measurement.command, "rows": data})
 
 
 def stored_measurements() -> list[dict[str, Any]]:
@@ -84,14 +71,22 @@ def stored_measurements() -> list[dict[str, Any]]:
 
 
 def main(names: Sequence[str]) -> None:
-    """Store the measurements of these names (none: all). Raises ``SystemExit`` for a name that none has."""
+    """Measure, and write rows and picture to ``stored/``, of these names (none: all). Raises ``SystemExit`` for a name
+    that no measurement has."""
     known = {measurement.name: measurement for measurement in MEASUREMENTS}
     for name in names:
         if name not in known:
             raise SystemExit(f"{name} is not a measurement (known: {', '.join(known)})")
-    for name, measurement in known.items():
-        if not names or name in names:
-            print(store_measurement(measurement, jobs=os.cpu_count() or 1))
+    for one in [known[name] for name in names or known]:
+        methods = methods_from_file(*(LISTS / file for file in one.methods))
+        asked = questions(methods, [KAPPA], one.firsts, one.refines)
+        rows = match(asked, store=RunStore.usual(), jobs=os.cpu_count() or 1, limit=LIMIT)
+        draw_work_precision(rows, STORED)
+        made_by = f"python -m bent_beam_programs.report.work {one.name}"
+        settings = {row.label: row.settings for row in rows}
+        data = {"command": one.command, "rows": [{name: row.to_dict()[name] for name in KEPT} for row in rows]}
+        what = f"work and precision: {one.title}"
+        print(stored.write(STORED / f"{one.name}.json", what, made_by, CODE, settings, data))
 
 
 if __name__ == "__main__":
