@@ -23,8 +23,10 @@ WIDTH = 900  # of a small picture, pixels
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "thesis_numbers.md"
 
 
-def store_numbers(gallery: Path) -> Path:
-    """Store the table and the figures that a gallery folder holds. Raises ``OSError`` for one that it lacks."""
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("gallery", type=Path, metavar="GALLERY", help="a folder that bentbeam gallery has drawn")
+    gallery: Path = parser.parse_args().gallery
     with (gallery / "table-numbers.csv").open(encoding="utf-8") as stream:
         columns, *rows = csv.reader(stream)
     for name in SHOWN:
@@ -33,13 +35,7 @@ def store_numbers(gallery: Path) -> Path:
     made_by = "bentbeam gallery --out GALLERY && python -m bent_beam_programs.thesis.stored_numbers GALLERY"
     figures = [{"id": name, "title": ITEMS[name].title} for name in SHOWN]
     data = {"columns": columns, "classes": list(CLASSES), "summary": summary(rows), "rows": rows, "figures": figures}
-    return stored.write(FILE.with_name("numbers.json"), "printed numbers of the thesis", made_by, PACKAGES, {}, data)
-
-
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("gallery", type=Path, metavar="GALLERY", help="a folder that bentbeam gallery has drawn")
-    print(store_numbers(parser.parse_args().gallery))
+    print(stored.write(FILE.with_name("numbers.json"), "printed numbers of the thesis", made_by, PACKAGES, {}, data))
 
 
 if __name__ == "__main__":

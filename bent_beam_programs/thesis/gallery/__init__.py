@@ -59,9 +59,9 @@ def draw_item(name: str, out: Path, formats: Sequence[str]) -> dict[str, Any]:
         seconds = round(clock.perf_counter() - began, 2)
         drawn = about | {"numbers": plain(sheet.numbers), "files": [str(f) for f in files], "seconds": seconds}
         write_atomically(mark, json.dumps({"key": key, "drawn": drawn}, indent=1))
+        return drawn
     except ANY_FAILURE as error:
         return {"id": name, "reason": f"{type(error).__name__}: {' '.join(str(error).split())}"}
-    return drawn
 
 
 def _draw_group(names: Sequence[str], out: Path, formats: Sequence[str]) -> list[dict[str, Any]]:

@@ -7,7 +7,6 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from matplotlib.axes import Axes
 
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
@@ -106,14 +105,6 @@ def shapes(sheet: Sheet) -> None:
         sheet.numbers[f"lift (mm), {SIGNS[700.0]}, h = 2.5·10⁻⁷ s, fine to {zone:g} m"] = lift
 
 
-def leading(sheet: Sheet, axis: Axes, what: str, end: float) -> None:
-    """Theory of leading order (a method of :class:`Exact`) in the units of the panel, ms and mm, N or kN."""
-    t = end * np.linspace(0.0, 1.0, 301)[1:] ** 2
-    factor = 1e3 if what == "front" else 1e-3 if "kN" in axis.get_ylabel() else 1.0
-    values = factor * getattr(Exact(impact(0.0)), what)(t)
-    sheet.line(axis, 1e3 * t, values, series="theory, leading order", **{**style.THEORY, "ls": ":"})
-
-
 @item("fig-3.34", case=CASE)
 def all_of_it(sheet: Sheet) -> None:
     """First order: geometry, contact length, reaction
@@ -125,6 +116,7 @@ def all_of_it(sheet: Sheet) -> None:
     is mostly noise from 0.6 ms on. The numbers are λ₁ in m/s^(3/2) by the thesis's fit (it prints 227 and −270.8): the
     fit tends to theory's as the part of the run shrinks.
     """
+    without = Exact(impact(0.0))
     with sheet.figure(3, 2, height=7.2, texts=[SIGNS[700.0], SIGNS[-700.0]], legend=3) as (_, axes):
         for column, acceleration in enumerate((700.0, -700.0)):
             name = SIGNS[acceleration]
@@ -139,8 +131,11 @@ def all_of_it(sheet: Sheet) -> None:
             banded(sheet, axes[2, column], runs)
             for axis in axes[1:, column]:
                 axis.lines[1].set_linestyle("--")  # a₀ = 0
-            for axis, what in ((axes[1, column], "front"), (axes[2, column], "side_reaction")):
-                leading(sheet, axis, what, float(runs[0].time[-1]))
+            t = float(history.time[-1]) * np.linspace(0.0, 1.0, 301)[1:] ** 2
+            force = 1e-3 if "kN" in axes[2, column].get_ylabel() else 1.0
+            values = (1e3 * without.front(t), force * without.side_reaction(t))
+            for axis, y in zip(axes[1:, column], values):
+                sheet.line(axis, 1e3 * t, y, series="theory, leading order", **{**style.THEORY, "ls": ":"})
             sheet.numbers[f"λ₁, {name}, theory"] = study.predicted(impact(acceleration))
             sheet.numbers |= {f"λ₁, {name}, {o.label}": study.fitted(o) for o in runs if o is not plain}
             sheet.numbers[f"λ₁, {name}, {runs[-1].label}, first 5 %"] = study.fitted(runs[-1], 0.05)

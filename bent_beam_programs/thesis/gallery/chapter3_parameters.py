@@ -6,13 +6,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from bent_beam.meshes import GradedMesh, Mesh, SquareMesh
+from bent_beam.cases import Case
+from bent_beam.meshes import GradedMesh, SquareMesh
 from bent_beam_programs.thesis.gallery import drawing
 from bent_beam_programs.thesis.gallery.drawing import BAND, FILTER, LEGEND
-from bent_beam_programs.thesis.gallery.runs import Series, case, thesis
+from bent_beam_programs.thesis.gallery.runs import Series, case
 from bent_beam_programs.thesis.sheet import Sheet, item, items
 from bent_beam_programs.thesis.studies.exact import Exact
-from bent_beam_programs.thesis.studies.numerical import PER_ELEMENT, square_mesh
+from bent_beam_programs.thesis.studies.numerical import PER_ELEMENT
 from bent_beam_programs.thesis.studies.outcome import CUT_OFF
 from bent_beam_programs.thesis.studies.panels import contact_length, energy, filtered, geometry, geometry_off, less
 from bent_beam_programs.thesis.studies.thesis import MASSES, thesis_settings
@@ -135,15 +136,14 @@ LENGTHS = Series(
 )
 
 
-def square_zone() -> SquareMesh:
-    """The square mesh over the contact zone at τ = 0.01."""
-    given = case(FLAT, 0.01)
-    laid = square_mesh(given, thesis_settings(given.impact, given.end_time))
-    assert laid is not None  # it has few enough elements
-    return replace(laid, zone=float(Exact(given.impact).front(given.end_time)))
+def square_zone(given: Case, **more: float) -> SquareMesh:
+    """The square mesh over the contact zone at the end."""
+    settings, exact = thesis_settings(given.impact, given.end_time), Exact(given.impact)
+    first, zone = (float(exact.front(t)) for t in (PER_ELEMENT * settings.time_step, given.end_time))
+    return SquareMesh(first_element=first, zone=zone, growth=settings.growth, **more)
 
 
-SQUARE = square_zone()
+SQUARE = square_zone(case(FLAT, 0.01))
 ZONES = Series(FLAT, 0.01, {"uniform zone": {}, '"square" zone': {"mesh": SQUARE}})
 SQUARE_CASE = f"K = 1/80 1/m (κ/ν = 6.25·10⁻⁴), τ = 0.01, h = 2.5·10⁻⁸ s, e = 1.25, a = 5; {LEGEND}"
 items(__name__, drawing.run_figure, (
@@ -179,12 +179,8 @@ def count_of(curvature: float, *, square: bool = False) -> int:
     the contact zone, or a square one over the contact zone.
     """
     given = case(curvature, 0.1)
-    settings, exact = thesis_settings(given.impact, given.end_time), Exact(given.impact)
-    zone = float(exact.front(given.end_time))
-    laid: Mesh = GradedMesh(2.5e-3, settings.growth, zone=2.0 * zone)
-    if square:
-        first = float(exact.front(PER_ELEMENT * settings.time_step))
-        laid = SquareMesh(first_element=first, zone=zone, growth=settings.growth, size_ratio=1e9)
+    zone = 2.0 * float(Exact(given.impact).front(given.end_time))
+    laid = square_zone(given, size_ratio=1e9) if square else GradedMesh(2.5e-3, 1.25, zone=zone)
     return 2 * (laid.nodes(given.impact.half_length).size - 1)
 
 
@@ -199,11 +195,6 @@ def counts(sheet: Sheet) -> None:
     laid = [(growth, printed, table_nodes(growth)) for growth, printed in ELEMENTS.items()]
     rows = [[f"{growth:g}", printed, 2 * (x.size - 1), float(np.diff(x)[-1])] for growth, printed, x in laid]
     sheet.table(["e", "thesis", "ours", "largest element (m)"], rows, width=style.COLUMN + 0.8)
-
-
-def square_middle(mass: str) -> float:
-    """Depth of its central node inside the wall at the end, m."""
-    return -float(thesis("", FLAT, 0.01, mesh=SQUARE, mass=MASSES[mass]).gap[0])
 
 
 @item("fig-3.13", case=SQUARE_CASE.partition(";")[0])

@@ -117,10 +117,7 @@ def beam_panel(
     reach, front = zoom or 1.5, float(fields.half_contact_length(tau))
     half = np.unique(np.concatenate([np.linspace(0.0, reach, 121), [front]]))
     xi = np.concatenate([-half[:0:-1], half])
-    free, layer = (
-        np.concatenate([y[:0:-1], y])
-        for y in (fields.slow_motion(half, tau).deflection, fields.fast_layer(half, tau).deflection)
-    )
+    free, layer = fields.slow_motion(xi, tau).deflection, fields.fast_layer(xi, tau).deflection
     axis.set(xlabel=r"$\xi$  (1)", ylabel=r"deflection $w$  (1)", xlim=(-reach, reach))
     sheet.line(axis, xi, free, series="free motion", **plain_line("grey", "--"))
     if zoom is None:
