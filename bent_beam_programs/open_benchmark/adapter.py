@@ -33,7 +33,6 @@ GIVEN = "given"  # one mesh for all: elements of 0.02 l*, 400 equal steps, or as
 SHIPPED: dict[str, Any] = {"resolutions": [*RESOLUTIONS, GIVEN], "kinds": ["leading", "point", "first"]}
 SHIPPED |= {"chosen": "uniform, the same in every problem"}  # where a table says nothing else
 WINDOWS = os.name == "nt"
-SYSTEM_PYTHON = "/usr/bin/python3"
 INSTALL_SECONDS = 900.0
 
 
@@ -65,7 +64,7 @@ class Adapter:
     def python(self) -> Path:
         """The interpreter it runs with."""
         if self.debian:
-            return Path(SYSTEM_PYTHON)
+            return Path("/usr/bin/python3")
         if not self.install:
             return Path(sys.executable)
         scripts = sysconfig.get_path("scripts", "nt_venv" if WINDOWS else "posix_venv", {"base": str(self.folder)})

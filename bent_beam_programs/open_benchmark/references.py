@@ -37,9 +37,6 @@ class Reference:
     errors: dict[str, float] = field(default_factory=dict)
     source: str = ""
 
-    def __getitem__(self, name: str) -> float | None:
-        return self.values.get(name)
-
 
 def reference(asked: Problem) -> Reference:
     """The answer to a problem, as far as there is one."""

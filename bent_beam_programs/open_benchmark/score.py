@@ -18,7 +18,7 @@ from bent_beam.measure.moments import Moments
 from bent_beam.measure.numbers import Number
 from bent_beam_programs.open_benchmark.judgement import FIRST_ORDER, LOADED, PART, WORDS, Finding, Score, Symptom
 from bent_beam_programs.open_benchmark.references import reference
-from bent_beam_programs.open_benchmark.result import Array, Result, ResultError
+from bent_beam_programs.open_benchmark.result import Result, ResultError
 from bent_beam_programs.open_benchmark.symptoms import last_push, readings
 
 __all__ = ["resolution_ignored", "score"]
@@ -30,12 +30,8 @@ def score(result: Result, base: Result | None = None) -> Score:
     Raises :class:`ResultError` when ``base`` does not belong to the result's problem.
     """
     asked = result.problem
-    found = Score(
-        asked.id,
-        result.stated,
-        metadata=result.metadata,
-        raw=result.node_impulse is not None and result.snap_gap is not None,
-    )
+    raw = result.node_impulse is not None and result.snap_gap is not None
+    found = Score(asked.id, result.stated, metadata=result.metadata, raw=raw)
     if result.outcome != "completed":
         return replace(found, reason=result.detail or result.outcome)
     if not asked.is_front:
@@ -65,22 +61,18 @@ def _estimates(result: Result, base: Result | None) -> dict[str, Number]:
     estimates = {"lambda0": leading.lambda0, "r0": leading.r0.scaled(sign)}
     if base is not None:
         loaded = _moments(result, load=asked.uniform_load, lambda0=leading.lambda0.known)
-        change = first_order([(asked.epsilon, loaded)], _moments(_sampled(base, result.tau)), leading)
+        # cumulative series, linear between instants as the steps' sums are
+        J, Jm = (np.interp(result.tau, base.tau, series) for series in (base.J, base.Jm))
+        bare = _moments(replace(base, tau=result.tau, J=J, Jm=Jm))
+        change = first_order([(asked.epsilon, loaded)], bare, leading)
         estimates |= {"lambda1": change.lambda1, "r1": change.r1}
     exact = reference(asked)
-    return {name: _number(number, exact[name]) for name, number in estimates.items()}
+    return {name: _number(number, exact.values.get(name)) for name, number in estimates.items()}
 
 
 def _number(found: Number, exact: float | None) -> Number:
     known = found.spread <= max(abs(found.value or 0.0), abs(exact or 0.0)) or not exact
     return Number(found.value if known else None, abs(found.bar or 0.0) if known else None, exact)
-
-
-def _sampled(base: Result, tau: Array) -> Result:
-    """``base`` at the instants ``tau``: cumulative series, linear between instants as the steps' sums are."""
-    if base.tau.size == tau.size and np.allclose(base.tau, tau, rtol=1e-9, atol=0.0):
-        return base
-    return replace(base, tau=tau, J=np.interp(tau, base.tau, base.J), Jm=np.interp(tau, base.tau, base.Jm))
 
 
 def _moments(result: Result, *, load: float = 0.0, lambda0: float = 0.0, sign: float = 1.0) -> Moments:
@@ -108,11 +100,11 @@ def _ladder(result: Result) -> dict[str, Any]:
     if asked.kind == "bounce":
         free = result.tau >= 0.9 * asked.end_time  # out of contact by then: any change is an error
         rest = result.J[free] / (asked.length or 2.0) - 1.0
-        measured["restitution"] = Number(float(rest[-1]), float(np.ptp(rest)) or None, exact["restitution"])
+        measured["restitution"] = Number(float(rest[-1]), float(np.ptp(rest)) or None, exact.values.get("restitution"))
     elif "peak_force" in exact.values:
         force, when = _largest_force(result)
-        measured["peak_force"] = Number(force, None, exact["peak_force"])
-        measured["peak_time"] = Number(when, None, exact["peak_time"])
+        measured["peak_force"] = Number(force, None, exact.values["peak_force"])
+        measured["peak_time"] = Number(when, None, exact.values["peak_time"])
     elif exact.impulse is not None:
         expected = exact.impulse(result.tau)
         # mean, not largest: where the impulse jumps, a jump at a slightly wrong time is a small error
