@@ -74,11 +74,10 @@ def page() -> str:
     return text.replace("{{ simulation }}", workers).replace("{{ script }}", script())
 
 
-def write_page(file: str | Path) -> Path:
+def write_page(file: Path) -> Path:
     """Write the page to ``file`` (its folder is made) and return the path."""
-    path = Path(file)
-    write_atomically(path, page())
-    return path
+    write_atomically(file, page())
+    return file
 
 
 def _script(data: Mapping[str, Any], names: tuple[str, ...]) -> str:
