@@ -10,6 +10,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -134,23 +135,23 @@ def runs_of_methods(
 
     A method that the study cannot use, and one that refuses the case, are rows with the reason.
     """
-    return [one for method in methods for factor in refines for one in _runs(vary, case, method, factor)]
-
-
-def _runs(vary: Vary, case: Case, method: Method, factor: float) -> list[Variant | Outcome]:
-    try:
-        finer = refined(method, factor)
-        if finer is None:
-            reason = f"refine: {method.path} does not know how to be refined (got {factor:g})"
-        elif not (reason := finer.refuses(case.impact) or ""):
-            found = vary(MethodOnCase(finer, case))
-            return [dataclasses.replace(run, label=method.label, refine=factor) for run in found]
-    except NotVaried as error:
-        reason = f"not varied: {error}"
-    except ANY_FAILURE as error:
-        reason = str(error)
-    asked = Variant(method.label, case.impact, case.end_time, method, refine=factor)
-    return [asked.lost(reason, refused=True)]
+    found: list[Variant | Outcome] = []
+    for method, factor in product(methods, refines):
+        try:
+            finer = refined(method, factor)
+            if finer is None:
+                reason = f"refine: {method.path} does not know how to be refined (got {factor:g})"
+            elif not (reason := finer.refuses(case.impact) or ""):
+                runs = vary(MethodOnCase(finer, case))
+                found += [dataclasses.replace(run, label=method.label, refine=factor) for run in runs]
+                continue
+        except NotVaried as error:
+            reason = f"not varied: {error}"
+        except ANY_FAILURE as error:
+            reason = str(error)
+        asked = Variant(method.label, case.impact, case.end_time, method, refine=factor)
+        found.append(asked.lost(reason, refused=True))
+    return found
 
 
 def draw_methods(sheet: Sheet, heading: str, outcomes: Sequence[Outcome]) -> None:
