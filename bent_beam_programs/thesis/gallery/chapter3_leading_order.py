@@ -221,8 +221,27 @@ def discrete(sheet: Sheet) -> None:
         geometry(sheet, axes[0, 0], nodes, (0.0, END), (-340, 30))
         geometry(sheet, axes[0, 1], middles, (0.0, 0.5 * MIDDLE, MIDDLE, LATE), (-60, 18))
         axes[0, 1].set_xlim(0, 0.11)
-        energies(sheet, axes[1, 0])
-        impulses(sheet, axes[1, 1])
+        lost, pushed = axes[1]
+        lost.set(xlabel="$t$  (µs)", ylabel="$E - E(0)$  (J)", xlim=(-2.0, 1e6 * END))
+        for (name, mass), colour in zip(MASSES.items(), ("vermilion", "sky")):
+            history = run("node", ELEMENT, 50.0, END, STEP, mass)
+            times, change = np.append([-2e-6], history.time), np.append([0.0], energy_change(history))  # flight before
+            sheet.line(lost, 1e6 * times, change, series=f"nodes, {name}", color=style.COLOURS[colour])
+        sheet.line(lost, [0.0, 1e6 * END], [0.0, 0.0], series="theory", **style.THEORY)
+        lost.legend(fontsize=7, loc="center right", bbox_to_anchor=(1.0, 0.75))
+        for element, colour in zip(FINE, style.SEQUENCE):
+            history = run("node", element, 1.0, END, STEP, THESIS_MASS)
+            time = history.time
+            edges = np.concatenate([time[:11], np.linspace(time[10], END, 41)[1:]])
+            force = np.diff(np.interp(edges, time, history.array("total_impulse"))) / np.diff(edges)
+            middle = 0.5 * (edges[1:] + edges[:-1])
+            sheet.line(pushed, 1e6 * middle, 1e-3 * force, series=f"Δx = {readable(element)} m", color=colour, lw=0.9)
+        t = np.geomspace(0.5 * STEP, END, 200)
+        exact = Exact(case(CURVATURE, DURATION).impact)
+        sheet.line(pushed, 1e6 * t, 2e-3 * exact.side_reaction(t), series="theory", **style.THEORY)
+        pushed.set(xlabel="$t$  (µs)", ylabel="reaction $R$  (kN)", xscale="log", yscale="log")
+        pushed.set(xlim=(1e-2, 25), ylim=(1.0, 1e6))
+        pushed.legend(fontsize=6.5, loc="upper right", ncols=2)
     closed = int(np.argmax(middles.array("total_impulse") > 0.0))
     sheet.numbers["middles close at (s)"] = float(middles.time[closed])
     for name, mass in MASSES.items():
@@ -231,32 +250,3 @@ def discrete(sheet: Sheet) -> None:
     sheet.numbers["first impact, lumped, h = 10⁻¹⁰ s (N s)"] = first_impact(ELEMENT, THESIS_MASS, 1e-10)[0]
     for element in FINE:
         sheet.numbers[f"first step, Δx = {readable(element)} m (N s)"] = first_impact(element, THESIS_MASS)[0]
-
-
-def energies(sheet: Sheet, axis: Axes) -> None:
-    """Energy over time with both masses, contact at nodes."""
-    axis.set(xlabel="$t$  (µs)", ylabel="$E - E(0)$  (J)", xlim=(-2.0, 1e6 * END))
-    for (name, mass), colour in zip(MASSES.items(), ("vermilion", "sky")):
-        history = run("node", ELEMENT, 50.0, END, STEP, mass)
-        change, shade = energy_change(history), style.COLOURS[colour]
-        times, change = np.append([-2e-6], history.time), np.append([0.0], change)  # free flight before
-        sheet.line(axis, 1e6 * times, change, series=f"nodes, {name}", color=shade)
-    sheet.line(axis, [0.0, 1e6 * END], [0.0, 0.0], series="theory", **style.THEORY)
-    axis.legend(fontsize=7, loc="center right", bbox_to_anchor=(1.0, 0.75))
-
-
-def impulses(sheet: Sheet, axis: Axes) -> None:
-    """R(t) of the whole beam for several element lengths."""
-    for element, colour in zip(FINE, style.SEQUENCE):
-        history = run("node", element, 1.0, END, STEP, THESIS_MASS)
-        time = history.time
-        edges = np.concatenate([time[:11], np.linspace(time[10], END, 41)[1:]])
-        force = np.diff(np.interp(edges, time, history.array("total_impulse"))) / np.diff(edges)
-        middle = 0.5 * (edges[1:] + edges[:-1])
-        sheet.line(axis, 1e6 * middle, 1e-3 * force, series=f"Δx = {readable(element)} m", color=colour, lw=0.9)
-    t = np.geomspace(0.5 * STEP, END, 200)
-    exact = Exact(case(CURVATURE, DURATION).impact)
-    sheet.line(axis, 1e6 * t, 2e-3 * exact.side_reaction(t), series="theory", **style.THEORY)
-    axis.set(xlabel="$t$  (µs)", ylabel="reaction $R$  (kN)", xscale="log", yscale="log")
-    axis.set(xlim=(1e-2, 25), ylim=(1.0, 1e6))
-    axis.legend(fontsize=6.5, loc="upper right", ncols=2)

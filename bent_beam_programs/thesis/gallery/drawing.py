@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import replace
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib import colormaps
@@ -128,8 +128,7 @@ def beam_panel(
     style.wall_below(axis, *limits)
 
 
-@dataclass(frozen=True)
-class CellForces:
+class CellForces(NamedTuple):
     """Reaction per cell: places and times are edges, m and s; force (times, places), N, of one side of the beam."""
 
     places: np.ndarray
@@ -161,7 +160,7 @@ def draw_maps(sheet: Sheet, histories: Mapping[str, ImpactHistory], rows: int, h
     with sheet.figure(rows, 2, height=height, texts=list(histories)) as (fig, axes):
         for axis, history, found in zip(axes.flat, histories.values(), cells):
             exact, end = Exact(history.impact), float(history.time[-1])
-            places, times, force = found.places, found.times, found.force
+            places, times, force = found
             st, mt = unit(end, "s")
             whole = np.concatenate([-places[:0:-1], places])
             pushing = np.ma.masked_less_equal(np.hstack([force[:, ::-1], force]), 0.0)

@@ -93,9 +93,8 @@ def signorini(sheet: Sheet) -> None:
     choices. (4.0.6) asks one number of the whole zone; complementarity at every node and step, which implies it, is
     what the solver here asks. By (3.2.7) its second integral is ≥ 0, where ≤ 0 is printed.
     """
-    old = plain_line("vermilion", width=1.1)
     runs = {
-        "thesis's settings": (thesis("", 10.0, 0.1, contact="node").history, old),
+        "thesis's settings": (thesis("", 10.0, 0.1, contact="node").history, plain_line("vermilion", width=1.1)),
         HermiteFE().label: (reference_history(10.0, 0.1, HermiteFE.path), style.mark(HermiteFE.path)),
     }
     with sheet.figure(1, 2, height=2.7, legend=2) as (_, axes):
