@@ -61,7 +61,9 @@ def evolution(sheet: Sheet, contact: str) -> None:
         }
 
 
-EVOLUTION = f"{SHOWN}, both masses, each with its own axis. Triangles are theory's contact points at the lines' times"
+EVOLUTION = (
+    f"{SHOWN}, both masses, each with its own axis. Triangles are theory's contact points at the times of the lines"
+)
 items(__name__, evolution, (
     ("fig-3.23", "Middle method: geometry",
      f"Geometry at several times, contact at element middles; {EVOLUTION}. The thesis's lift is of the order of 1.7 "
