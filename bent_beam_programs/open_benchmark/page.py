@@ -45,7 +45,7 @@ WORDS = {
 } | {name: rung.words for name, rung in LADDER.items()}
 
 
-def document(rows: Sequence[Row], adapters: Sequence[Adapter], seed: int | None) -> dict[str, Any]:
+def document(rows: Sequence[Row], adapters: Sequence[Adapter], seed: int | None = None) -> dict[str, Any]:
     """All of the page as JSON. ``seed`` : of the drawn problems."""
     return {
         "format": "beam-impact benchmark 2",
@@ -138,10 +138,13 @@ def _regime(asked: Problem) -> str:
     return "lift-off" if alpha + psi < 0.0 else "pressed"
 
 
-def write_page(rows: Sequence[Row], adapters: Sequence[Adapter], out: Path, about: dict[str, Any]) -> Path:
+def write_page(
+    rows: Sequence[Row], adapters: Sequence[Adapter], out: Path, about: dict[str, Any] | None = None
+) -> Path:
     """Write ``index.html``, the same as ``benchmark.json``, the errors of either table (``errors-TABLE.md``, and
     ``errors-TABLE-given.md`` on the given mesh) and its figures (``sheets/TABLE/PROBLEM-MEASURE.svg``); returns the
     page. ``about`` : :func:`document` of both."""
+    about = about or document(rows, adapters)
     solvers = list(dict.fromkeys([*(a.name for a in adapters), *(row.solver for row in rows)]))
     tables = {name: [row for row in rows if row.table == name] for name in ("run here", "self-declared")}
     places = {name: name.replace(" ", "-") for name in tables}

@@ -14,7 +14,7 @@ from bent_beam.measure.numbers import Number
 from bent_beam_programs.open_benchmark.adapter import RESOLUTIONS, Adapter, chosen_adapters, shipped_adapters
 from bent_beam_programs.open_benchmark.campaign import STANDARD, Row, campaign, declared_rows, drawn
 from bent_beam_programs.open_benchmark.judgement import Score, Symptom
-from bent_beam_programs.open_benchmark.page import document, errors_table, properties, write_page
+from bent_beam_programs.open_benchmark.page import errors_table, properties, write_page
 from bent_beam_programs.open_benchmark.problem import problem
 from bent_beam_programs.open_benchmark.reading import load_result
 from bent_beam_programs.open_benchmark.running import Limits, run_adapter
@@ -112,8 +112,7 @@ def test_one_bad_adapter_is_a_row_and_only_what_changed_is_run_again(tmp_path, m
     assert [r.score.outcome for r in rows] == ["crashed", "not_installed", "completed"]
     assert rows[1].score.reason == "bentbeam benchmark --install none"
     assert rows[-1].score.error("r0") == pytest.approx(0.0, abs=1e-9)
-    own = [bad, none, fine]
-    page = write_page(rows, own, tmp_path / "out", document(rows, own, None)).read_text()
+    page = write_page(rows, [bad, none, fine], tmp_path / "out").read_text()
     assert page.count("<svg") == 1 and "cannot" in page and "not installed" in page
     adapter(tmp_path, "good", GOOD + "# better")
     run()
@@ -163,8 +162,7 @@ def test_only_nodal_histories_and_gaps_of_drawn_problems_stand_in_the_table_of_r
     ran = next(row for row in rows if not row.declared_because)
     assert ran.score.error("r0") == pytest.approx(0.0, abs=0.01) and ran.repeats == 1
     assert len(ran.made_by["source"]) == 64 and "numpy" in ran.made_by["packages"]
-    shown = [ran, rows[-1]]
-    page = write_page(shown, adapters, tmp_path / "out", document(shown, adapters, None)).read_text()
+    page = write_page([ran, rows[-1]], adapters, tmp_path / "out").read_text()
     run_table, declared_table = page[page.index('id="run-here"') :].split('id="self-declared"')
     assert "clean" in run_table and ">declared<" not in run_table and ">declared<" in declared_table
     handed_in = declared_rows(sorted((tmp_path / "out/results").rglob("*.npz")))

@@ -15,7 +15,7 @@ from here import FUZZ
 from bent_beam_programs.open_benchmark.adapter import Adapter
 from bent_beam_programs.open_benchmark.campaign import Row
 from bent_beam_programs.open_benchmark.judgement import Score
-from bent_beam_programs.open_benchmark.page import document, write_page
+from bent_beam_programs.open_benchmark.page import write_page
 from bent_beam_programs.open_benchmark.reading import load_result
 from bent_beam_programs.open_benchmark.result import ResultError
 from tests.open_benchmark.exact import exact_fields
@@ -156,6 +156,5 @@ def test_markup_in_results_and_adapters_is_text_on_the_page(tmp_path):
     file.write_text(f"# </pre>{evil}")
     score = Score("leading-0.5", f"crashed({evil})", evil, metadata={"tool": evil, "version": evil})
     rows = [Row(evil, "leading-0.5", resolution, 1.0, score) for resolution in ("coarse", "medium", "fine")]
-    own = [Adapter(evil, file)]
-    page = write_page(rows, own, tmp_path / "out", document(rows, own, None)).read_text()
+    page = write_page(rows, [Adapter(evil, file)], tmp_path / "out").read_text()
     assert "alert(1)" in page and "<script>alert" not in page and "<img" not in page
