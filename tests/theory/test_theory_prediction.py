@@ -173,6 +173,8 @@ def test_a_force_along_x_swings_the_reaction_by_two_per_cent_at_the_limit() -> N
         return float(np.max(2.0 * pull * beam.curvature * np.abs(1.0 - moved) / (2.0 * np.sqrt(2.0 / (np.pi * t)))))
 
     assert swing(until) < 0.02 < swing(1.4 * until) and until < predict(beam).valid_until
+    strong = predict(beam.replace(axial_force=300.0)).valid_until  # when the impulse swings, 2ct/ℓ² as much
+    assert 2.0 * strong * 4.0 * math.sqrt(2.0) * 300.0 * beam.curvature * strong == pytest.approx(0.02)
     zone = predict(Impact.whole_beam(0.5).replace(axial_force=1.6))  # whose force is r₀ times as large
     assert 4.0 * math.sqrt(2.0) * 1.6 * 0.5 * zone.valid_until / zone.r0 == pytest.approx(0.02)
 
