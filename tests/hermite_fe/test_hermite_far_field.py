@@ -73,13 +73,17 @@ def test_doubling_the_far_field_changes_nothing() -> None:
     assert small[-1] == pytest.approx(large[-1], rel=1e-4)
 
 
-def test_far_fields_take_no_momentum_and_leave_rigid_motion_alone() -> None:
-    impact = Impact(1.0, 1.0, 20.0, 0.0, 1.0)
-    beam = HermiteBeam(ScaleFreeMesh(0.1, 1.02).nodes(10.0), 1.0, 1.0)
-    for far_field in (GridViscosity(), Sponge()):
+def test_far_fields_take_no_momentum_and_resist_bending_alone_by_their_constants() -> None:
+    """Bent at the rate 1 they take ∫c Δx² dx √(EIμ), a sponge at each end ∫b w² s³ dx √(EIμ) = b w³/4 √(EIμ) more."""
+    impact, half = Impact(3.0, 2.0, 20.0, 0.0, 1.0), ScaleFreeMesh(0.1, 1.02).nodes(10.0)
+    beam = HermiteBeam(np.concatenate([-half[:0:-1], half]), 3.0, 2.0)
+    grid = 0.3 * (beam.lengths**3).sum()
+    for far_field, taken in ((GridViscosity(), grid), (Sponge(), grid + 2.0 * 0.03 * 5.0**3 / 4.0)):
         bands = sum(part for _, part in far_field.dampings(beam, impact))
-        rigid = beam.interpolate(np.ones(beam.nodes.size), np.zeros(beam.nodes.size))
+        rigid, bent = beam.interpolate(np.ones(beam.nodes.size), 0.0 * beam.nodes), 0.5 * beam.nodes**2
         assert np.abs(product(bands, rigid)).max() < 1e-12 * np.abs(bands).max()
+        rate = beam.interpolate(bent, beam.nodes)
+        assert rate @ product(bands, rate) == pytest.approx(np.sqrt(6.0) * taken, rel=2e-3)
 
 
 def test_waves_are_back_from_the_ends_at_the_same_time_however_long_the_run() -> None:
