@@ -32,7 +32,7 @@ def test_the_largest_force_of_a_nearly_straight_beam_is_that_of_oscillators_side
 
 
 @pytest.mark.parametrize(("share", "damping"), [(0.0, 0.7), (0.8, 0.2)])
-def test_a_partly_covered_element_pushes_as_its_penetration_integrated_point_by_point(share, damping) -> None:
+def test_a_partly_covered_element_pushes_point_by_point_and_a_stop_as_one_spring(share, damping) -> None:
     """share : σ of shear, by which the cubic's slopes differ from the sections' angles."""
     random = np.random.default_rng(3)
     springs = Springs(2.0, damping, np.zeros(4), np.array([0.8]), np.array([share]), 0, 1, -1)
@@ -43,16 +43,25 @@ def test_a_partly_covered_element_pushes_as_its_penetration_integrated_point_by_
     N += share * np.outer([-1 / 0.8, -0.5, 1 / 0.8, -0.5], N[1] + N[3])
     thrice = np.array([[-0.1, 3.0, 0.1, 3.0], [0.2, -3.0, -0.1, -2.0]])  # so often these change sign
     for q, new in (*random.normal(size=(20, 2, 4)), thrice):
-        force, peaks = np.zeros(4), np.zeros(4)
+        force, peaks = np.zeros(4), np.full(4, 9.0)
         total, loss, _ = push(springs, q, new, 0.3, force, np.zeros((4, 4)), peaks)
         p, after = np.maximum(q @ N, 0.0), np.maximum(new @ N, 0.0)
         spring = (after**2 - p**2) / (new @ N - q @ N)  # k/2 = 1
         pressure = np.maximum(spring + damping * (after - p) / 0.3, 0.0)
         assert total == pytest.approx(0.8 * pressure.mean(), rel=1e-2, abs=1e-2)  # kinks where it would pull
         assert force == pytest.approx(0.8 * (N * pressure).mean(axis=1), rel=1e-2, abs=1e-2)
-        gained = stored_energy(springs, new) - stored_energy(springs, q)
-        assert gained == pytest.approx(0.8 * (after**2 - p**2).mean(), abs=1e-6)
+        for found, most in zip(peaks[2:], (after.max(), pressure.max())):  # of the points where it is integrated
+            assert 0.8 * most <= found <= 1.0001 * most
+        held = stored_energy(springs, new)
+        gained = held - stored_energy(springs, q)
+        assert (held, gained) == pytest.approx((0.8 * (after**2).mean(), 0.8 * (after**2 - p**2).mean()), abs=1e-6)
         assert loss >= 0.0 and force @ (new - q) == pytest.approx(gained + loss, abs=1e-12)
+        stop = springs._replace(last=0, stop=2)  # one spring, at the right node
+        total, loss, _ = push(stop, q, new, 0.3, force, np.zeros((4, 4)), peaks)
+        held = stored_energy(stop, new)
+        assert (np.sqrt(held), peaks[2]) == pytest.approx((max(new[2], 0.0),) * 2)
+        assert (new - q)[2] * total == pytest.approx(held - stored_energy(stop, q) + loss, abs=1e-12)
+        assert force == pytest.approx([0.0, 0.0, total, 0.0]) and peaks[3] == total
 
 
 def test_a_beam_that_comes_to_rest_on_its_wall_pushes_with_its_weight() -> None:
