@@ -14,6 +14,7 @@ from bent_beam.measure.whole_impact import whole_impact
 from bent_beam.meshes import ScaleFreeMesh, UniformMesh
 from bent_beam.method import simulate_to_separation
 from hermite_fe import HermiteFE, simulate
+from hermite_fe.constraints import ContactLaw, Rows, set_bounds
 from hermite_fe.contacts import CONTACTS, AlternateContact, Contact, MiddleContact, NodeContact
 from hermite_fe.far_fields import GridViscosity
 from hermite_fe.integrators import Integrator, MasslessBoundary, MoreauJean, SignoriniPosition
@@ -90,6 +91,24 @@ def test_the_zone_stays_on_the_wall_with_the_hold() -> None:
         assert history.array("held_impulse")[-1] < 0.0
         assert history.settings["hold"]["until"] == 0.3
         assert history.settings["hold"]["pull"] > 0.0
+
+
+def test_what_is_held_is_closed_and_fewer_than_hold_behind_the_front_of_its_side() -> None:
+    """Or before hold_until; nothing is from hold_ends on. What else is closed pulls to its strength, h·2 N."""
+    rank, side = np.array([1, 0, 0, 1, 2, 3]), np.array([1, 1, 0, 0, 0, 0])
+    rows, closed = Rows(np.zeros((6, 1), int), np.ones((6, 1)), np.zeros(6), rank, side, np.ones(6)), rank % 2 == 0
+    strength, least = np.full(6, 2.0), np.zeros(6)
+    for t, law, held in [
+        (0.1, ContactLaw(hold=1, strength=strength), [1, 4]),
+        (0.1, ContactLaw(hold=2, hold_until=0.1, strength=strength), [1, 4]),
+        (0.1, ContactLaw(hold=3, hold_ends=0.2, strength=strength), [1, 2, 4]),
+        (0.1, ContactLaw(hold_until=0.2, strength=strength), [1, 2, 4]),
+        (0.2, ContactLaw(hold_until=0.2, strength=strength), []),
+        (0.2, ContactLaw(hold=3, hold_ends=0.2, strength=strength), []),
+    ]:
+        set_bounds(rows, law, closed, t, 0.25, least)
+        assert np.flatnonzero(np.isinf(least)).tolist() == held
+        assert np.array_equal(least[np.isfinite(least)], np.where(closed, -0.5, 0.0)[np.isfinite(least)])
 
 
 def test_no_hold_acts_once_waves_may_be_back() -> None:
