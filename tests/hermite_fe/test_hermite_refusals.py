@@ -78,7 +78,7 @@ REFUSED = [
     # contact points without mass
     (lambda: massless(viscosity=0.3), r"takes no damping: far_field.viscosity"),
     (lambda: massless(contact=NodeContact()), r'points that do not touch.*contact.kind must be "alternate"'),
-    (lambda: massless(contact=MiddleContact()), r'contact.kind must be "alternate"'),
+    (lambda: massless(contact=MiddleContact()), r'points that are dofs: contact.kind must be "alternate"'),
     (lambda: massless(contact=AlternateContact(restitution=0.5)), r"restitution must be 0 \(got 0.5\)"),
     (lambda: massless(contact=AlternateContact(hold=4)), r"contact\.hold has no effect"),
     (lambda: massless(SHORT.replace(damping=1e-3)), r"no damping"),
