@@ -13,7 +13,7 @@ from bent_beam.meshes import UniformMesh
 from hermite_fe import HermiteFE, simulate
 from hermite_fe.contacts import NodeContact
 from hermite_fe.far_fields import GridViscosity
-from hermite_fe.integrators import MoreauJean, NonsmoothGeneralizedAlpha
+from hermite_fe.integrators import Midpoint, MoreauJean, NonsmoothGeneralizedAlpha, SignoriniPosition
 from hermite_fe.resolution import chosen_domain
 from hermite_fe.warnings_of_run import end_warnings
 
@@ -148,8 +148,26 @@ def test_an_early_impact_beside_the_middle_is_refused_where_even_elements_would_
         HermiteFE(domain=10.0).simulate(beside, end_time=0.1)
 
 
-@pytest.mark.parametrize(("kappa", "damping", "elements"), [(0.5, 1e-3, 100), (0.5, 1e-4, 200), (0.2, 1e-3, 200)])
-def test_thin_fronts_and_little_damping_take_twice_the_elements_of_a_beam_that_shears(kappa, damping, elements) -> None:
-    impact = Impact.whole_beam(kappa, relative_damping=damping).replace(shear_stiffness=1e4, rotary_inertia=1e-5)
-    mesh = HermiteFE().for_whole_beam(impact).mesh
-    assert mesh is not None and mesh.nodes(impact.half_length).size == elements + 1
+SHEAR = {"shear_stiffness": 1e4, "rotary_inertia": 1e-5}
+
+
+@pytest.mark.parametrize(
+    ("kappa", "damping", "more", "elements", "step", "scheme"),
+    [
+        (0.5, 1e-3, {}, 200, 0.5 / 200**2, SignoriniPosition),
+        (0.36, 3.1e-4, SHEAR, 100, 1.0 / 80.0 / 100, MoreauJean),
+        (0.5, 2.9e-4, SHEAR, 200, 1.0 / 80.0 / 200, MoreauJean),  # little damping
+        (0.34, 1e-3, SHEAR, 200, 1.0 / 80.0 / 200, MoreauJean),  # a thin front
+        (2.0, 1e-3, SHEAR | {"acceleration": 0.4}, 100, 1.0 / 80.0 / 100, SignoriniPosition),  # one point
+        (2.0, 1e-3, SHEAR | {"acceleration": 0.6}, 100, 1.0 / 80.0 / 100, MoreauJean),  # pressed on
+        (0.5, 1e-3, {"wall_stiffness": 1e2}, 200, 0.01 / 1e1, Midpoint),
+        (0.5, 1e-3, {"wall_stiffness": 1e8}, 400, 0.01 / 1e4, Midpoint),  # ¼ (EI/k)^¼ long
+        (0.5, 1e-3, {"wall_stiffness": 1e14}, 2000, 0.01 / 1e7, Midpoint),
+    ],
+)
+def test_whole_beams_have_the_elements_steps_and_scheme_of_the_docs(kappa, damping, more, elements, step, scheme):
+    impact = Impact.whole_beam(kappa, relative_damping=damping).replace(**more)
+    method = HermiteFE().for_whole_beam(impact)
+    assert method.mesh.nodes(impact.half_length).size == elements + 1
+    assert type(method.integrator) is scheme and method.integrator.time_step == pytest.approx(step)
+    assert getattr(method.integrator, "theta", 0.5) == 0.5 and method.far_field.viscosity == 0.0
