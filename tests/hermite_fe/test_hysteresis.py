@@ -14,8 +14,10 @@ from hermite_fe.constraints import ContactLaw
 from hermite_fe.contacts import NodeContact
 from hermite_fe.far_fields import GridViscosity
 from hermite_fe.integrators import Midpoint, MoreauJean, SignoriniPosition
+from hermite_fe.maxwell import step_branches, stiffen, strains_of
 from hermite_fe.model import BeamModel, beam_model
 from hermite_fe.run import integrate
+from hermite_fe.stepping import problem_of, state_of
 
 
 def lossy(kappa: float, loss: float, **more: object) -> Impact:
@@ -53,6 +55,21 @@ def test_the_first_mode_swings_at_its_frequency_and_loses_in_each_period_what_is
     curvature, sagitta = z**2 * (1.0 / np.cosh(z) - 1.0 / np.cos(z)), 2.0 - 1.0 / np.cos(z) - 1.0 / np.cosh(z)
     bent = 0.5 * widths[0] * curvature / sagitta
     assert run.sums["largest_midspan_moment"][turns[0] - 5 : turns[1] + 5].max() == pytest.approx(abs(bent), rel=0.05)
+
+
+@pytest.mark.parametrize("step", [1e-6, 1e-2, 1.0, 100.0])
+def test_a_branch_at_a_constant_rate_of_strain_stretches_as_its_dashpot_lets_it_whatever_the_step(step: float) -> None:
+    """z = ėτ(1 − e^{−t/τ}) from slack, and so its mean over the second step, by which the beam is pulled."""
+    system = modelled(lossy(0.5, 0.2), 3).system
+    state = state_of(system, np.zeros(system.dofs), np.random.default_rng(1).normal(size=system.dofs))
+    branches, v = state.branches, state.v
+    stiffen(branches, step, 1.0, problem_of(system, ContactLaw()).solver)
+    for _ in range(2):
+        step_branches(branches, state.bending, v, step, state.stretch)
+    pulled = np.ravel([strains_of(state.bending, v, e) for e in range(3)])[:, None] / branches.rates
+    x = step * branches.rates
+    assert branches.z == pytest.approx(-pulled * np.expm1(-2.0 * x), rel=1e-9)
+    assert state.stretch == pytest.approx((pulled * (1.0 + np.exp(-x) * np.expm1(-x) / x)) @ branches.shares, rel=1e-6)
 
 
 @pytest.mark.parametrize(
