@@ -63,6 +63,12 @@ def test_a_free_bow_under_load_and_tension_accelerates_without_waves_from_its_en
     acceleration = solveh_banded(model.system.mass, model.system.load[0], lower=True)
     assert acceleration[0::2] == pytest.approx(3.0, rel=1e-8)
     assert acceleration[1::2] == pytest.approx(0.0, abs=1e-5)
+    # the work of N on the axis, which bending shortens by ½∫u′² dx
+    x, length, force = model.beam.nodes, 2.0 / model.copies, impact.axial_force
+    bent, pulled = model.beam.interpolate(0.5 * x**2, x)[None], impact.replace(tension_direction="axis")
+    assert model.work_of_tension(bent) == pytest.approx(-0.5 * force * length / 3.0)
+    loads = beam_model(pulled, x[x >= 0.0], FREE, QUIET, full=full, mass=mass).system.load[0] - model.system.load[0]
+    assert loads[0::2][-1] == pytest.approx(force * 0.5) and loads.sum() == pytest.approx(force * 0.5 * length)
 
 
 @pytest.mark.parametrize("axial_force", [-3.0, 8.0])

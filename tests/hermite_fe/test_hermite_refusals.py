@@ -21,11 +21,15 @@ from hermite_fe.integrators import (
     SignoriniPosition,
 )
 from hermite_fe.run import integrate
+from hermite_fe.system import ContactRows, System
 
 SHORT = Impact.dimensionless(0.5, length=8.0)
 SHEARED = Impact.whole_beam(0.5, relative_damping=3e-3, shear_length=0.05, shear_ratio=0.2)
 LOSSY = SHEARED.replace(damping=0.0, hysteretic_loss=0.01, loss_frequency=1.0)
 SPRINGS = SHORT.replace(wall_stiffness=50.0)
+# a slope and the next node but one, coupled by the mass with the multipliers of two elements between them
+FAR = System([[1.0] * 6, *np.zeros((2, 6)), [0.0, 0.1] + [0.0] * 4], np.zeros((1, 6)),
+             ContactRows([[0, 1, 2, 3], [2, 3, 4, 5]], 0.5 * np.ones((2, 4)), np.ones(2)))  # fmt: skip
 WAY = '.*model = "euler_bernoulli"'
 
 
@@ -60,6 +64,7 @@ REFUSED = [
     (lambda: integrate(ball(), np.zeros(2), np.zeros(1), MoreauJean(1e-3), 0.1), r"q must have shape \(1,\) .*\(2,\)"),
     (lambda: integrate(ball(), np.zeros(1), np.zeros(0), MoreauJean(1e-3), 0.1), r"v must have shape"),
     # contacts
+    (lambda: integrate(FAR, np.zeros(6), np.zeros(6), MoreauJean(1e-3), 0.1), "a few neighbouring dofs"),
     (lambda: NodeContact(restitution=0.05, hold=4), "hold keeps rows closed"),
     (lambda: MeanContact(restitution=1.5), r"contact\.restitution must lie in \[0, 1\] \(got 1.5\)"),
     (lambda: MiddleContact(hold=-1), r"contact\.hold must be a whole number"),
