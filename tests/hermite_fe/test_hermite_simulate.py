@@ -72,6 +72,8 @@ def test_without_contact_the_free_motion_is_reproduced() -> None:
     t, x = history.time[:, None], history.dataset.x.values[None, 1:]
     exact = impact.velocity * t - 0.5 * impact.curvature * x**2 + impact.fourth_derivative * x**4 / 24.0
     exact += 0.5 * impact.acceleration * t**2 + 0.5 * impact.curvature_rate * x**2 * t
+    slope = x * (impact.curvature_rate * t - impact.curvature) + impact.fourth_derivative * x**3 / 6.0
+    assert np.abs(history.array("slope")[:, 1:] - slope).max() < 2e-3
     assert np.abs(history.array("gap")[:, 1:] + exact).max() < 2e-4  # the middle node's first touch is all there is
 
 
