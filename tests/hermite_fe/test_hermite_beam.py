@@ -63,12 +63,18 @@ def test_a_free_bow_under_load_and_tension_accelerates_without_waves_from_its_en
     acceleration = solveh_banded(model.system.mass, model.system.load[0], lower=True)
     assert acceleration[0::2] == pytest.approx(3.0, rel=1e-8)
     assert acceleration[1::2] == pytest.approx(0.0, abs=1e-5)
-    # the work of N on the axis, which bending shortens by ½∫u′² dx
-    x, length, force = model.beam.nodes, 2.0 / model.copies, impact.axial_force
-    bent, pulled = model.beam.interpolate(0.5 * x**2, x)[None], impact.replace(tension_direction="axis")
-    assert model.work_of_tension(bent) == pytest.approx(-0.5 * force * length / 3.0)
-    loads = beam_model(pulled, x[x >= 0.0], FREE, QUIET, full=full, mass=mass).system.load[0] - model.system.load[0]
-    assert loads[0::2][-1] == pytest.approx(force * 0.5) and loads.sum() == pytest.approx(force * 0.5 * length)
+
+
+@pytest.mark.parametrize("full", [False, True])
+def test_half_a_model_has_half_of_the_work_the_loads_and_the_stop_of_a_whole_beam(full: bool) -> None:
+    """−½N∫u′² dx is the work of N on the axis that bending shortens; along the axis it pushes each end by NK|x|."""
+    beam = Impact.whole_beam(0.5).replace(axial_force=0.3, wall_stiffness=7.0, wall_from=0.0, wall_to=0.0)
+    model, other = (beam_model(beam.replace(tension_direction=to), UniformMesh(0.1).nodes(1.0), FREE, QUIET, full=full)
+                    for to in ("axis", "tangent"))  # fmt: skip
+    loads, bent = model.system.load - other.system.load, model.beam.interpolate(0.5 * (x := model.beam.nodes) ** 2, x)
+    assert model.copies * model.work_of_tension(bent[None]) == pytest.approx(-0.1)
+    assert loads[0, -2] == pytest.approx(0.15) and model.copies * loads.sum() == pytest.approx(0.3)
+    assert model.copies * model.system.springs.stiffness == 7.0
 
 
 @pytest.mark.parametrize("axial_force", [-3.0, 8.0])

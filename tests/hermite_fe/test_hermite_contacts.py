@@ -99,14 +99,11 @@ def test_what_is_held_is_closed_and_fewer_than_hold_behind_the_front_of_its_side
     rows, closed = Rows(np.zeros((6, 1), int), np.ones((6, 1)), np.zeros(6), rank, side, np.ones(6)), rank % 2 == 0
     strength, least = np.full(6, 2.0), np.zeros(6)
     for t, law, held in [
-        (0.1, ContactLaw(hold=1, strength=strength), [1, 4]),
-        (0.1, ContactLaw(hold=2, hold_until=0.1, strength=strength), [1, 4]),
-        (0.1, ContactLaw(hold=3, hold_ends=0.2, strength=strength), [1, 2, 4]),
-        (0.1, ContactLaw(hold_until=0.2, strength=strength), [1, 2, 4]),
-        (0.2, ContactLaw(hold_until=0.2, strength=strength), []),
-        (0.2, ContactLaw(hold=3, hold_ends=0.2, strength=strength), []),
-    ]:
-        set_bounds(rows, law, closed, t, 0.25, least)
+        (0.1, ContactLaw(hold=1), [1, 4]), (0.1, ContactLaw(hold=3, hold_ends=0.2), [1, 2, 4]),
+        (0.1, ContactLaw(hold_until=0.2), [1, 2, 4]), (0.1, ContactLaw(hold=2, hold_until=0.1), [1, 4]),
+        (0.2, ContactLaw(hold_until=0.2), []), (0.2, ContactLaw(hold=3, hold_ends=0.2), []),
+    ]:  # fmt: skip
+        set_bounds(rows, law._replace(strength=strength), closed, t, 0.25, least)
         assert np.flatnonzero(np.isinf(least)).tolist() == held
         assert np.array_equal(least[np.isfinite(least)], np.where(closed, -0.5, 0.0)[np.isfinite(least)])
 
