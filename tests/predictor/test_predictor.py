@@ -23,11 +23,11 @@ from comparison.bouncing import bounce
 from comparison.whole_numbers import FINAL
 from theory import predict as theory_predict
 
-needs_node = pytest.mark.skipif(shutil.which("node") is None, reason="Node.js is not installed")
-
 
 def evaluated(expression: str, argument: Any) -> Any:
     """What the page's scripts make of ``expression`` with ``given``, JSON in and out."""
+    if shutil.which("node") is None:
+        pytest.skip("Node.js is not installed")
     parts = [script((*MODEL, *SIMULATION[:-1], "draw.js", "form.js", "words.js"))]
     parts += [f"const given = {json.dumps(argument)};", f"console.log(JSON.stringify({expression}));"]
     done = subprocess.run(["node", "-"], input="\n".join(parts), capture_output=True, text=True, check=True)
@@ -74,7 +74,6 @@ def in_si(impact: Impact, name: str) -> float:
     return float(impact.curvature if value is None and name == "natural_curvature" else value or 0.0)
 
 
-@needs_node
 def test_page_is_the_theory_on_random_beams() -> None:
     shares, area, modulus = [0.003, 0.03, 0.3], 2.0, 0.5
     pointed = 10.0 ** np.random.default_rng(22).uniform(0.0, 2.0, 8)  # few of the others stand before a wall
@@ -117,7 +116,6 @@ def test_page_is_the_theory_on_random_beams() -> None:
     assert compared > 260 and unknown > 3
 
 
-@needs_node
 def test_the_page_doubts_a_speed_of_sound_and_a_strain_that_no_material_has_and_the_weight_of_an_added_mass() -> None:
     """As `doubts` does (tests/comparison/test_prediction.py)."""
     beam, numbers = "Beam.impact({...Beam.START, ...more})", "{restitution: {}, moment: {}, force: {}}"
@@ -159,7 +157,6 @@ def random_inputs(count: int, seed: int) -> list[dict[str, Any]]:
     return found
 
 
-@needs_node
 def test_a_case_means_what_the_page_shows_and_is_read_back() -> None:
     inputs = [{}, {"damping_ratio": None}, {"damping_ratio": 0.0}, *random_inputs(60, 25)]
     expression = """given.map((typed) => {
@@ -181,9 +178,9 @@ def test_a_case_means_what_the_page_shows_and_is_read_back() -> None:
 
 BAR = '[section]\nkind = "round_bar"\ndiameter = 0.01\nyoungs_modulus = 7e10\ndensity = 2700.0\n'
 BAR += "[beam]\nlength = 1.0\nsagitta = 0.01\n[impact]\nvelocity = 1.0\n"
+READ = "given.map((text) => { try { return Beam.impact(Case.read(text)); } catch (error) { return error.message; } })"
 
 
-@needs_node
 def test_cases_are_read_and_what_the_page_lacks_is_refused_by_name() -> None:
     """A drop is under standard gravity where none is stated; at 100° it draws away from the wall."""
     texts = {name: (ROOT / f"cases/{name}.toml").read_text(encoding="utf-8")
@@ -191,11 +188,7 @@ def test_cases_are_read_and_what_the_page_lacks_is_refused_by_name() -> None:
     for fall in ("drop_height = 0.05\ngravity_angle = 30.0", "velocity = 1.0\ngravity = 9.81\ngravity_angle = 100.0"):
         texts[fall] = BAR.replace("velocity = 1.0", fall)
     texts["nonsense"] = texts["tube"].replace("[run]", "[exudyn]\nrun = true\n[run]")
-    found = evaluated(
-        "Object.fromEntries(Object.entries(given).map(([name, text]) => {"
-        " try { return [name, Beam.impact(Case.read(text))]; } catch (error) { return [name, error.message]; } }))",
-        texts,
-    )
+    found = dict(zip(texts, evaluated(READ, list(texts.values())), strict=True))
     assert "beam.bending_stiffness is not on this page" in found.pop("two_walls")
     assert "beam.ends is not on this page" in found.pop("tube_between_plates")
     assert "run = true is not a number" in found.pop("nonsense")
@@ -221,12 +214,10 @@ REFUSED = [  # instead of a line of the bar, another: what the page says
 ]
 
 
-@needs_node
 def test_the_page_makes_nothing_up_of_a_case_that_bentbeam_refuses() -> None:
     sheared = BAR.replace("length", 'model = "timoshenko"\nlength')  # a general section has no shear
     texts = [(sheared if other == GENERAL else BAR).replace(line, other) for line, other, _ in REFUSED]
-    read = "given.map((text) => { try { return Case.read(text); } catch (error) { return error.message; } })"
-    for text, (_, _, said), found in zip(texts, REFUSED, evaluated(read, texts), strict=True):
+    for text, (_, _, said), found in zip(texts, REFUSED, evaluated(READ, texts), strict=True):
         with pytest.raises(InputError):
             case_from_tables(tomllib.loads(text))
         assert said in found
@@ -265,7 +256,6 @@ def page_and_bounce(inputs: list[dict[str, Any]], share: float = 1.0) -> tuple[i
 RUBBER = {"wall_stiffness": 2e5, "wall_damping_ratio": 0.2}
 
 
-@needs_node
 @pytest.mark.parametrize(
     "wall", [{}, *(pytest.param(RUBBER | more, marks=pytest.mark.verify) for more in ({}, {"damping_ratio": 0.0}))]
 )
@@ -277,7 +267,6 @@ def test_a_whole_impact_is_that_of_bounce_within_bars(wall: dict[str, float]) ->
     assert compared == 4 + bool(wall) and not missed
 
 
-@needs_node
 def test_a_force_that_still_rises_when_the_page_gives_up_is_no_largest() -> None:
     """As in ``bounce`` (comparison/test_bounce.py): a wall that would not throw the beam off in 100 T*."""
     largest = """given.map((k) => {
@@ -291,19 +280,27 @@ def test_a_force_that_still_rises_when_the_page_gives_up_is_no_largest() -> None
     assert softer[0] > 0.0 and softer[1] is None  # while other runs are missing, a first number has no bar
 
 
-@needs_node
+def numbers_of(pairs: list[tuple[dict[str, Any], dict[str, Any]]]) -> list[dict[str, Any]]:
+    """What the page makes of readings of a run and of companions that are all alike, given what is not as here."""
+    read = {"restitution": 0.5, "impulse": 3, "lastContact": 0.6, "begin": 0.5, "apart": 0.1, "returns": [], "late": {},
+            "force": 0, "moment": 2, "time": 0.3, "steps": 1000, "course": [2, 2]}  # fmt: skip
+    expression = """given.map(([base, companion]) => {
+        const p = Beam.problem(Beam.impact(Beam.START), 0.01), runs = {};
+        for (const name in Answer.runs(p)) runs[name] = name === "base" ? base : companion;
+        return Answer.numbers(p, runs); })"""
+    return list(evaluated(expression, [(read | base, read | companion) for base, companion in pairs]))
+
+
 def test_maxima_that_agree_by_chance_have_a_bar_for_what_is_about_them() -> None:
     """As in ``bounce``: two companions with the same largest moment, whose curves fall off more steeply; of a third the
     largest is at another time."""
-    numbers = """given.map(([time, short]) => {
-        const p = {...Beam.problem(Beam.impact(Beam.START), 0.01)}, runs = {};
-        const of = (slope, steps, time) => ({
-            restitution: 0.5, impulse: 3, lastContact: 0.6, begin: 0.5, apart: 0.1, returns: [], late: {}, force: 0,
-            moment: 2, time, steps, course: Array.from({length: steps === 500 ? short : steps},
-                (_, k) => 2 - slope * Math.abs(k / steps - 0.3)) });
-        for (const name in Answer.runs(p)) runs[name] = name === "base" ? of(10, 1000, 0.3) : of(60, 500, time);
-        return Answer.numbers(p, runs).moment.bar; })"""
-    alike, elsewhere, ended = evaluated(numbers, [(0.3, 500), (0.7, 500), (0.3, 151)])  # the last at its largest
+
+    def course(slope: float, steps: int, length: int) -> dict[str, Any]:
+        return {"steps": steps, "course": [2.0 - slope * abs(k / steps - 0.3) for k in range(length)]}
+
+    companions = [course(60.0, 500, length) | {"time": time} for time, length in ((0.3, 500), (0.7, 500), (0.3, 151))]
+    found = numbers_of([(course(10.0, 1000, 1000), companion) for companion in companions])
+    alike, elsewhere, ended = (one["moment"]["bar"] for one in found)  # the last at its largest
     changes = 50.0 * np.array([0.002, 0.001, 0.0, 0.001, 0.002])  # one step of the companions' lies between two
     assert alike == pytest.approx(2.0 * FACTOR * math.sqrt(np.mean(changes**2)), rel=0.1)
     assert (
@@ -311,22 +308,15 @@ def test_maxima_that_agree_by_chance_have_a_bar_for_what_is_about_them() -> None
     )
 
 
-@needs_node
 def test_the_last_part_of_a_contact_may_be_none_on_the_page_too() -> None:
     """As in ``bounce`` (comparison/test_numbers_of_runs.py): it begins at 0.5 T*, 0.1 T* after the part before it, and
     gives half of 0.08 or of 0.12 μℓV₀; the restitution has a bar of two changes of 0.02."""
-    bars = """given.map((push) => {
-        const p = {...Beam.problem(Beam.impact(Beam.START), 0.01)}, runs = {};
-        for (const name in Answer.runs(p)) runs[name] = {
-            restitution: name === "base" ? 0.5 : 0.52, impulse: 3, earlier: 3 - push, lastContact: 0.6, begin: 0.5,
-            apart: 0.1, returns: [], late: {}, force: 0, moment: 2, time: 0.3, steps: 1000, course: [2, 2] };
-        const { restitution, lastContact } = Answer.numbers(p, runs);
-        return [restitution.bar, lastContact.bar]; })"""
-    (bar, wide), (_, narrow) = evaluated(bars, [0.08, 0.12])
-    assert bar == pytest.approx(2.0 * FACTOR * 0.02) and wide - narrow == pytest.approx(0.2)
+    both = ({"earlier": 3.0 - push} for push in (0.08, 0.12))
+    wide, narrow = numbers_of([(given, given | {"restitution": 0.52}) for given in both])
+    assert wide["restitution"]["bar"] == pytest.approx(2.0 * FACTOR * 0.02)
+    assert wide["lastContact"]["bar"] - narrow["lastContact"]["bar"] == pytest.approx(0.2)
 
 
-@needs_node
 @pytest.mark.verify
 def test_twenty_random_beams_bounce_on_the_page_as_in_bounce() -> None:
     seed = int(np.random.default_rng().integers(10**6))
@@ -356,7 +346,6 @@ def test_the_page_of_the_guide_is_what_the_command_writes() -> None:
     assert old == pytest.approx(new, rel=1e-6, abs=1e-7)  # coefficients of fits of order one
 
 
-@needs_node
 def test_a_value_is_rounded_to_the_first_digit_of_its_bar_as_python_writes_it() -> None:
     rng = np.random.default_rng(8)
     values = rng.choice([-1.0, 1.0], 300) * 10.0 ** rng.uniform(-7.0, 9.0, 300)
