@@ -29,32 +29,25 @@ def row(path: str, kappa: float, first: tuple[float, float, float] | None = None
         for name, sign, least in (("lambda0", 1, 0.0), ("r0", -1, 0.0), ("lambda1", 1, 1.0), ("r1", 1, 1.0))
         if (value := float(getattr(exact, name))) is not None and (first or name.endswith("0"))
     }
-    return MatchRow(
-        label=LABELS[path], path=path, settings={}, kappa_over_nu=kappa, alpha=alpha, psi=psi, chi=chi, axial=0.0,
-        refine=1.0, regime=str(exact.regime), lift=1e-9, pull=0.0, seconds=0.5 if path == "hermite" else 5.0,
-        epsilons=[0.1, 0.2] if first else [], **numbers,
-    )  # fmt: skip
+    told = {"regime": str(exact.regime), "lift": 1e-9, "pull": 0.0, "epsilons": [0.1, 0.2] if first else []}
+    return _row(path, kappa, (alpha, psi, chi), seconds=0.5 if path == "hermite" else 5.0, **told, **numbers)
 
 
 def lost(path: str, kappa: float, reason: str) -> MatchRow:
-    return MatchRow(
-        label=LABELS[path], path=path, settings={}, kappa_over_nu=kappa, alpha=1.0, psi=0.0, chi=0.0, axial=0.0,
-        refine=1.0, reason=reason,
-    )  # fmt: skip
+    return _row(path, kappa, (1.0, 0.0, 0.0), reason=reason)
+
+
+def _row(path: str, kappa: float, loads: tuple[float, float, float], **told: Any) -> MatchRow:
+    given = dict(zip(("alpha", "psi", "chi"), loads), axial=0.0, refine=1.0, settings={})
+    return MatchRow(label=LABELS[path], path=path, kappa_over_nu=kappa, **given, **told)
 
 
 def rows() -> list[MatchRow]:
     """Leading and first order on both paths; one row of each grade."""
     leading = [row(path, k) for k in (1 / 1600, 1 / 20, 0.25, 0.5) for path in ("hermite", "exudyn")]
     coarse = [replace(row(path, 0.5, off=4e-4), refine=0.5, seconds=0.1) for path in ("hermite", "exudyn")]
-    return [
-        *leading,
-        *coarse,
-        row("hermite", 0.5, (4, 0, 0), 2e-3),
-        row("exudyn", 0.5, (4, 0, 0), 2.5e-2),
-        row("hermite", 0.7, (4, 0, 0), 1.5e-2),
-        row("hermite", 0.8, (4, 0, 0), 0.2),
-    ]
+    first = [("hermite", 0.5, 2e-3), ("exudyn", 0.5, 2.5e-2), ("hermite", 0.7, 1.5e-2), ("hermite", 0.8, 0.2)]
+    return [*leading, *coarse, *(row(path, kappa, (4, 0, 0), off) for path, kappa, off in first)]
 
 
 FOLDER = Path(tempfile.mkdtemp())

@@ -15,8 +15,10 @@ from bent_beam.section import General, Pipe, Rectangle, RoundBar
 
 STEEL = {"youngs_modulus": 206e9, "density": 7850.0}
 PIPE = {"kind": "pipe", "outer_diameter": 0.127, "wall_thickness": 0.0092, **STEEL}
+WALLED = Pipe(outer_diameter=0.127, wall_thickness=0.0092, **STEEL)
 BOW, FLIGHT = {"curvature": 0.002}, {"velocity": 2.0}
 PLAIN = BOW | {"bending_stiffness": 2e6, "mass_per_length": 30.0}
+ALONG, HINGED = {"tension_direction": "axis"}, BOW | {"ends": ["hinged", "free"]}
 
 
 def case(beam=BOW, section=PIPE, impact=FLIGHT, **more):
@@ -31,8 +33,7 @@ def test_pipe_is_outer_less_inner_bar_with_what_it_carries_along():
     assert (outer.area, outer.second_moment) == pytest.approx((math.pi * 0.0635**2, math.pi * 0.0635**4 / 4.0))
     assert pipe.bending_stiffness == pytest.approx(outer.bending_stiffness - inner.bending_stiffness, rel=1e-13)
     assert pipe.mass_per_length == pytest.approx(outer.mass_per_length - inner.mass_per_length, rel=1e-13)
-    walled = Pipe(outer_diameter=0.127, wall_thickness=0.0092, **STEEL)
-    assert walled.bore == pytest.approx(0.1086, rel=1e-13)
+    assert WALLED.bore == pytest.approx(0.1086, rel=1e-13)
     assert pipe.section_modulus == pytest.approx(pipe.second_moment / 0.0635, rel=1e-13)
     wet = Pipe(outer_diameter=0.127, inner_diameter=0.1086, fluid_density=1000.0, added_mass=3.0, **STEEL)
     carried = 1000.0 * math.pi * 0.0543**2 + 3.0
@@ -52,12 +53,11 @@ def test_shear_coefficients_are_cowpers():
 
 def test_a_section_that_knows_its_shear_makes_timoshenko_s_beam_unless_euler_and_bernoulli_s_is_asked_for():
     found = case(BOW | {"model": "timoshenko"}).impact
-    pipe = Pipe(outer_diameter=0.127, wall_thickness=0.0092, **STEEL)
-    assert (found.model, found.shear_stiffness) == ("timoshenko", pipe.shear_stiffness)
-    assert found.rotary_inertia == pytest.approx(7850.0 * pipe.second_moment, rel=1e-14)
+    assert (found.model, found.shear_stiffness) == ("timoshenko", WALLED.shear_stiffness)
+    assert found.rotary_inertia == pytest.approx(7850.0 * WALLED.second_moment, rel=1e-14)
     along = 12.0 * found.bending_stiffness / found.section_height**2  # EA of the rectangle that stands for it
-    assert along == pytest.approx(pipe.youngs_modulus * pipe.area, rel=1e-12)
-    assert found.shear_ratio == pytest.approx(pipe.shear_coefficient / 2.6, rel=1e-12)  # κ_sG/E: nothing moves along
+    assert along == pytest.approx(206e9 * WALLED.area, rel=1e-12)
+    assert found.shear_ratio == pytest.approx(WALLED.shear_coefficient / 2.6, rel=1e-12)  # κ_sG/E: nothing moves along
     assert case(BOW | {"model": "euler_bernoulli"}).impact == found.unsheared
     assert case(PLAIN, None).impact.model == "euler_bernoulli"
     stated = case(PLAIN | {"shear_stiffness": 5e7, "model": "timoshenko"}, None).impact
@@ -97,13 +97,13 @@ def test_a_beam_arrives_as_it_falls_or_swings(impact, velocity, acceleration):
 
 
 def test_a_wall_that_gives_way_and_the_ends_are_what_the_tables_say():
-    found = case({"curvature": 0.002, "ends": ["hinged", "free"]}, wall={"stiffness": 1e6, "damping_ratio": 0.5}).impact
+    found = case(HINGED, wall={"stiffness": 1e6, "damping_ratio": 0.5}).impact
     assert found.wall_damping == pytest.approx(math.sqrt(1e6 * found.mass_per_length), rel=1e-14)
     assert (found.left_end, found.right_end, found.off_centre) == ("hinged", "free", True)
     length, time = wall_scales(found)
     assert length**4 == pytest.approx(found.bending_stiffness / 1e6)
     assert time**2 == pytest.approx(found.mass_per_length / 1e6)
-    stop = case({"curvature": 0.002}, wall={"stiffness": 1e6, "from": 0.0, "to": 0.0}).impact
+    stop = case(wall={"stiffness": 1e6, "from": 0.0, "to": 0.0}).impact
     assert wall_scales(stop).length ** 3 == pytest.approx(stop.bending_stiffness / 1e6)
 
 
@@ -151,10 +151,10 @@ def test_damping_ratio_and_loss_factor_are_the_same_time_constant():
         ({"beam": {"curvature": 0.1, "hysteretic_loss": 0.1}}, "hysteretic_loss .got 0.1 alone.* is at [0-9.]+ Hz"),
         ({"beam": {"curvature": 0.1, "hysteretic_loss": 0.1, "loss_frequency": 1e9}}, "loss_frequency .*got 10{9}.0"),
         ({"beam": {"curvature": 0.1, "loss_frequency": 10.0}}, "loss_frequency has no effect"),
-        ({"beam": {"curvature": 0.1, "tension_direction": "axis"}}, "tension_direction has no effect"),
+        ({"beam": BOW | ALONG}, "tension_direction has no effect"),
         (
-            {"beam": {"curvature": 0.1, "axial_force": 1.0, "ends": "clamped", "tension_direction": "axis"}},
-            "beam.tension_direction has no effect without a free end",
+            {"beam": BOW | ALONG | {"axial_force": 1.0, "ends": "clamped"}},
+            "tension_direction has .* without a free end",
         ),
         ({"beam": {"curvature": 0.1, "sagitta_length": 1.0}}, "sagitta_length has no effect"),
         ({"impact": {"velocity": 1.0, "angular_arm": 1.0}}, "angular_arm has no effect"),
@@ -173,10 +173,7 @@ def test_damping_ratio_and_loss_factor_are_the_same_time_constant():
         ({"wall": {"from": 16.0}}, "wall.from must lie on the beam"),
         ({"beam": {"curvature": 0.1, "ends": ["free", "glued"]}}, "beam.ends must be one of .*'glued'"),
         ({"beam": {"curvature": 0.1, "ends": "hinged"}, "impact": {"angular_speed": 1.0}}, "needs one hinge"),
-        (
-            {"beam": BOW | {"ends": ["hinged", "free"], "axial_force": 1e3}, "impact": {"angular_speed": 1.0}},
-            "bends it",
-        ),
+        ({"beam": HINGED | {"axial_force": 1e3}, "impact": {"angular_speed": 1.0}}, "bends it"),
         # what contradicts the model of the beam
         ({"beam": PLAIN | {"model": "timoshenko"}, "section": None}, "needs beam.shear_stiffness"),
         ({"beam": PLAIN | {"rotary_inertia": 1.0}, "section": None}, "no effect without"),

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from called import command, refused
 from here import ROOT
+from histories import ROD
 
 from bent_beam.cases import case_from_tables
 from bent_beam.errors import InputError
@@ -176,8 +177,6 @@ def test_a_case_means_what_the_page_shows_and_is_read_back() -> None:
             assert row["b"][here] == pytest.approx(getattr(case.section, there), rel=1e-12)
 
 
-BAR = '[section]\nkind = "round_bar"\ndiameter = 0.01\nyoungs_modulus = 7e10\ndensity = 2700.0\n'
-BAR += "[beam]\nlength = 1.0\nsagitta = 0.01\n[impact]\nvelocity = 1.0\n"
 READ = "given.map((text) => { try { return Beam.impact(Case.read(text)); } catch (error) { return error.message; } })"
 
 
@@ -186,7 +185,7 @@ def test_cases_are_read_and_what_the_page_lacks_is_refused_by_name() -> None:
     texts = {name: (ROOT / f"cases/{name}.toml").read_text(encoding="utf-8")
              for name in ("tube", "drill_pipe", "rail", "ruler", "two_walls", "tube_between_plates")}  # fmt: skip
     for fall in ("drop_height = 0.05\ngravity_angle = 30.0", "velocity = 1.0\ngravity = 9.81\ngravity_angle = 100.0"):
-        texts[fall] = BAR.replace("velocity = 1.0", fall)
+        texts[fall] = ROD.replace("velocity = 1.0", fall)
     texts["nonsense"] = texts["tube"].replace("[run]", "[exudyn]\nrun = true\n[run]")
     found = dict(zip(texts, evaluated(READ, list(texts.values())), strict=True))
     assert "beam.bending_stiffness is not on this page" in found.pop("two_walls")
@@ -199,11 +198,11 @@ def test_cases_are_read_and_what_the_page_lacks_is_refused_by_name() -> None:
 
 
 GENERAL = 'kind = "general"\narea_of_section = 1e-4\nsecond_moment_of_area = 1e-9\nsection_height = 0.01'
-REFUSED = [  # instead of a line of the bar, another: what the page says
-    ("density = 2700.0", "", "section.density is missing"),
-    ("diameter = 0.01", "", "section.diameter is missing"),
-    ('kind = "round_bar"\ndiameter = 0.01', GENERAL, "needs a section that knows its shear"),
-    ("diameter = 0.01", "diameter = 0.01\nwidth = 0.1", "section.width is none of a round_bar"),
+REFUSED = [  # instead of a line of the rod, another: what the page says
+    ("density = 7850.0", "", "section.density is missing"),
+    ("diameter = 0.02", "", "section.diameter is missing"),
+    ('kind = "round_bar"\ndiameter = 0.02', GENERAL, "needs a section that knows its shear"),
+    ("diameter = 0.02", "diameter = 0.02\nwidth = 0.1", "section.width is none of a round_bar"),
     ("sagitta = 0.01", "", "give one of beam.sagitta, beam.curvature, beam.dogleg"),
     ("sagitta = 0.01", "sagitta = 0.01\ncurvature = 0.1", "give one of beam.sagitta"),
     ("sagitta = 0.01", "curvature = 0.1\nsagitta_length = 0.5", "sagitta_length has no effect"),
@@ -215,8 +214,8 @@ REFUSED = [  # instead of a line of the bar, another: what the page says
 
 
 def test_the_page_makes_nothing_up_of_a_case_that_bentbeam_refuses() -> None:
-    sheared = BAR.replace("length", 'model = "timoshenko"\nlength')  # a general section has no shear
-    texts = [(sheared if other == GENERAL else BAR).replace(line, other) for line, other, _ in REFUSED]
+    sheared = ROD.replace("length", 'model = "timoshenko"\nlength')  # a general section has no shear
+    texts = [(sheared if other == GENERAL else ROD).replace(line, other) for line, other, _ in REFUSED]
     for text, (_, _, said), found in zip(texts, REFUSED, evaluated(READ, texts), strict=True):
         with pytest.raises(InputError):
             case_from_tables(tomllib.loads(text))

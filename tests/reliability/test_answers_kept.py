@@ -11,7 +11,6 @@ from types import SimpleNamespace
 
 import pytest
 from called import MAIN, answered, command, refused, started
-from here import CASES
 from strangers import Plain, Unlabelled
 
 from bent_beam import method as methods
@@ -158,11 +157,6 @@ def test_sources_edited_while_a_process_is_open_are_nobody_elses(monkeypatch):
     found = store_module.source_digest()
     store_module.source_digest.cache_clear()
     assert found.startswith(before.split()[0]) and str(os.getpid()) in found
-
-
-def test_a_stiffness_that_cannot_be_calculated_with_is_refused_by_the_name_of_its_section():
-    words = ("predict", CASES / "drill_pipe.toml", "--theory-only", "--set", "section.outer_diameter=1e55")
-    assert "section: bending_stiffness must not exceed" in refused(*words)
 
 
 @pytest.mark.parametrize(("leave", "failed"), [(lambda: os._exit(0), 1), (lambda: os.chdir("/"), 0)])
