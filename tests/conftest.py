@@ -20,8 +20,6 @@ settings.register_profile(
 )
 settings.load_profile("tests")
 pytest_plugins = ["chromium"]  # its fixture
-COMPILED = ("nonsmooth_generalized_alpha", "generalized_alpha_penalty", "signorini_position", "midpoint",
-            "massless_boundary", "hysteretic")  # fmt: skip
 if "PYTEST_XDIST_WORKER" not in os.environ:  # workers inherit it
     STORE = tempfile.TemporaryDirectory(prefix="bentbeam-tests-")
     os.environ["BENTBEAM_STORE"] = STORE.name
@@ -39,6 +37,6 @@ def pytest_sessionstart(session: pytest.Session) -> None:
     """Each worker would compile every integrator for itself, at the same time as the other."""
     if hasattr(session.config, "workerinput") or not getattr(session.config.option, "numprocesses", None):
         return
-    command = [sys.executable, "-m", "tests.compile_integrators", *COMPILED]
+    command = [sys.executable, "-m", "tests.compile_integrators"]
     if subprocess.run(command, cwd=Path(__file__).parents[1]).returncode:
         raise pytest.UsageError("the integrators could not be compiled: see above")

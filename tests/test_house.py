@@ -39,19 +39,11 @@ def modules():
     return found
 
 
-def statements(node):
-    """Every statement below a node, however deep; what stands inside an expression is none."""
-    for child in ast.iter_child_nodes(node):
-        if isinstance(child, (ast.stmt, ast.excepthandler, ast.match_case)):
-            yield child
-            yield from statements(child)
-
-
 @cache
 def imported(module):
     """Dotted names that the import statements of a module name, wherever they stand."""
     found = set()
-    for node in statements(modules()[module]):
+    for node in ast.walk(modules()[module]):
         if isinstance(node, ast.Import):
             found |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom):

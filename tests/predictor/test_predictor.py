@@ -14,6 +14,7 @@ import pytest
 from called import command, refused
 from here import ROOT
 from histories import ROD
+from markdown_tables import RAISED
 
 from bent_beam.cases import case_from_tables
 from bent_beam.errors import InputError
@@ -352,6 +353,5 @@ def test_a_value_is_rounded_to_the_first_digit_of_its_bar_as_python_writes_it() 
     pairs += zip(values.tolist(), (abs(values) * 10.0 ** rng.uniform(-5.0, 0.5, 300)).tolist(), strict=True)
     written = evaluated("given.map(([value, error]) => Draw.bar(value, error))", pairs)
     power = re.compile(r"·10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)")
-    digits = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
-    plain = [power.sub(lambda m: f"e{int(m[1].translate(digits)):+03d}", text).replace("−", "-") for text in written]
+    plain = [power.sub(lambda m: f"e{int(m[1].translate(RAISED)):+03d}", text).replace("−", "-") for text in written]
     assert plain == [str(Number(*pair)) if pair[1] else "2 ± 0" for pair in pairs]

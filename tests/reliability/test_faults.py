@@ -9,7 +9,7 @@ import signal
 import pytest
 from called import command, refused, started
 from here import CASES, FUZZ, SEED
-from histories import ROD
+from histories import rod
 from processes import until
 
 from bent_beam import SimulationError
@@ -58,7 +58,7 @@ def test_a_killed_command_starts_again_and_ends_with_the_same_rows(name, tmp_pat
     folders = [tmp_path / str(number) for number in range(7 if FUZZ and name == "match" else 2)]
     for folder in folders:
         folder.mkdir()
-        (folder / "rod.toml").write_text(ROD + '[mesh]\nkind = "uniform"\nelement_length = 0.1\n')
+        rod(folder, element=0.1)
     whole, *killed = folders
     expected, runs = rows(words, whole), len(whole_runs_in(whole))
     assert len(expected) == {"match": 3, "sweep": 40}[name] and not any(row.get("reason") for row in expected)

@@ -9,18 +9,13 @@ pytestmark = needs_chromium
 
 
 @pytest.fixture(scope="module")
-def address(written: Any) -> str:
-    return str(written.file.as_uri())
-
-
-@pytest.fixture(scope="module")
-def browser(chromium: Any, address: str) -> Any:
-    return opened(chromium, address, 390)
+def browser(chromium: Any, written: Any) -> Any:
+    return opened(chromium, written.file.as_uri(), 390)
 
 
 @pytest.mark.parametrize("width", [1400, 390])
-def test_everything_is_drawn_without_errors_or_requests_and_nothing_overflows_or_is_lost(browser, address, width):
-    opened(browser, address, width)
+def test_everything_is_drawn_without_errors_or_requests_and_nothing_overflows_or_is_lost(browser, written, width):
+    opened(browser, written.file.as_uri(), width)
     assert beyond_the_edge(browser, "section, header, p, h2, .plot, table") == []
     cut = "[...document.querySelectorAll('.scroll > table')].filter(e => e.offsetParent)"
     assert ask(browser, f"{cut}.filter(e => e.scrollWidth > e.parentElement.clientWidth + 1).map(e => e.id)") == []
