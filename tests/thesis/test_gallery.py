@@ -21,7 +21,6 @@ from hermite_fe import HermiteFE
 from self_similar_fe import SelfSimilarFE
 from theory import contact_parameters, kernel
 
-DOCS = ROOT / "docs"
 LAST = {"fig-2": 18, "fig-3": 36, "fig-A": 3, "table-3": 4}  # of the thesis's figures and tables
 PAIRS = ("fig-2.7", "fig-2.12", "fig-2.16")  # drawn as a and b
 OTHERS = "filter uniform fine conditioning signorini coupling masses a0-17"
@@ -65,7 +64,7 @@ def test_every_figure_and_table_is_listed_in_the_order_of_the_thesis_and_in_the_
     printed |= {f"{pair}{letter}" for pair in PAIRS for letter in "ab"}
     assert printed | {"table-numbers", *(f"extra-{name}" for name in OTHERS.split())} == set(ITEMS)
     assert [e["id"] for e in listing()] == sorted(ITEMS, key=order)
-    guide = (DOCS / "gallery.md").read_text()
+    guide = (ROOT / "docs/gallery.md").read_text()
     for entry in listing():
         assert f"| {entry['id']} | {entry['title']} |" in guide
         assert entry["caption"].endswith((".", ")"))
