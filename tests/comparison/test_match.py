@@ -224,8 +224,8 @@ def test_a_bad_methods_file_is_refused_in_one_line(tmp_path, text, message):
 
 def test_a_bow_free_of_stress_is_let_go_by_a_tension_as_it_flies() -> None:
     """μ a₀ = −N K in free flight: α = −κN."""
-    pulled, told = questions([HermiteFE()], [0.4], [(None, 0.0, 0.0, 2.0), (1.0, 0.0, 0.0, 2.0)])
-    assert (pulled.first, told.first) == ((-0.8, 0.0, 0.0, 2.0), (1.0, 0.0, 0.0, 2.0))
+    pulled, told = questions([HermiteFE()], [0.4], [(None, 0.0, 0.0, 0.1), (1.0, 0.0, 0.0, 0.1)])
+    assert (pulled.first, told.first) == ((-0.4 * 0.1, 0.0, 0.0, 0.1), (1.0, 0.0, 0.0, 0.1))
     (slack,) = questions([HermiteFE()], [0.4], [(None, 1.0, 0.0)])
     assert slack.first == (0.0, 1.0, 0.0, 0.0) and str(slack.first[0]) == "0.0", "no force, no acceleration"
     alone, *others = (lost_row(question, "not asked").of_tension_alone for question in (pulled, told, slack))

@@ -281,6 +281,7 @@ def test_a_very_small_axial_force_changes_nothing(end, refine):
     beam, method = Impact.whole_beam(2.0), ExudynModel(refine=refine)
     pulled, free = (method.simulate(beam.replace(axial_force=n), end_time=end, save=5) for n in (1e-8, 0.0))
     assert pulled.array("total_impulse")[-1] == pytest.approx(free.array("total_impulse")[-1], rel=1e-6)
+    assert ExudynModel(element=ANCFCable(axial_stiffness=1.0)).refuses(beam.replace(axial_force=1e-8)) is None
 
 
 def test_explicit_steps_stay_stable_where_waves_along_the_beam_are_the_fastest():
@@ -294,10 +295,11 @@ def test_explicit_steps_stay_stable_where_waves_along_the_beam_are_the_fastest()
     assert abs(history.energy_budget()["defect"]) < 1e-4
 
 
-def test_a_beam_that_is_nearly_buckled_gets_more_elements():
-    beams = [Impact.whole_beam(2.0).replace(axial_force=force) for force in (0.0, 1.8, -1.8)]
-    free, taut, pressed = (ExudynModel().for_whole_beam(beam).mesh.nodes(1.0).size for beam in beams)
-    assert free == taut < pressed
+def test_a_beam_that_is_nearly_buckled_or_whose_wall_is_stiff_gets_more_elements():
+    beam = Impact.whole_beam(2.0)
+    beams = [beam.replace(axial_force=force) for force in (0.0, 1.8, -1.8)] + [beam.replace(wall_stiffness=1e8)]
+    free, taut, pressed, stiff = (ExudynModel().for_whole_beam(beam).mesh.nodes(1.0).size for beam in beams)
+    assert free == taut < pressed and stiff == 401  # four in (EI/k)^¼
 
 
 def test_what_no_theory_of_a_zone_needs_is_left_alone():
