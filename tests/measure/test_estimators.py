@@ -124,7 +124,8 @@ def test_a_companion_that_says_the_same_leaves_what_one_run_tells():
 
 
 def test_a_run_that_drifts_within_its_window_has_a_bar_for_it():
-    """A hump of the impulse in the middle of the last decade, which a fit over all of it smooths."""
+    """A hump of the impulse in the middle of the last decade, which a fit over all of it smooths; a step near its end,
+    which half of the decade tells best."""
     smooth = moments(synthetic(0.3))
     hump = 1.0 + 0.05 * np.exp(-(np.log(smooth.tau / 0.018) ** 2) / 0.2)
     steady, drifting = (
@@ -132,6 +133,9 @@ def test_a_run_that_drifts_within_its_window_has_a_bar_for_it():
     )
     assert abs(drifting.value - contact_parameters(0.3).r0) <= drifting.bar and drifting.parts["drift"] > 0.1
     assert drifting.parts["drift"] > 20.0 * steady.parts["drift"]
+    late = dataclasses.replace(smooth, impulse=np.where(smooth.tau > 0.07, 1.02, 1.0) * smooth.impulse)
+    found, half = (leading_order(late, window=window).r0 for window in (10.0, 10.0**0.5))
+    assert found.parts["drift"] == pytest.approx(4.0 * abs(half.value - steady.value), rel=0.02)
 
 
 def test_leading_order_is_the_same_whenever_the_run_ends():
