@@ -236,8 +236,8 @@ def simulate(
         on standard error says so.
     progress : called with the finished fraction.
     until : asked at every saved instant; the run ends with the first at which it says so.
-    parts : mesh, element and so on, the fields of :class:`exudyn_models.method.ExudynModel`. Open ones of a beam on
-        supports, or before a wall along a part of it, are those that suit the whole beam.
+    parts : mesh, element and so on, the fields of :class:`exudyn_models.method.ExudynModel`. Those left
+        open are chosen as for a whole impact if the beam is supported or the wall covers only a part of it.
 
     Sums (energies, ``total_impulse``) are of both halves of the modelled beam; a half model's ``impulse`` is that of
     x ≥ 0, half of the total.

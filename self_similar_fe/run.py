@@ -53,8 +53,8 @@ def simulate_expanding(
     """Follow an impact that :class:`self_similar_fe.SelfSimilarFE` takes over ``mesh.decades`` decades of time up to
     ``end_time`` (s).
 
-    save : number of saved instants (logarithmic over the last three decades, whole steps: fewer where one step holds
-        two), at least 2; of given times only the number counts.
+    save : number of saved instants (logarithmic over the last three decades, whole steps: fewer where two fall into
+        one step), at least 2; of given times only the number counts.
 
     The history's energies are those of the fast part z = y₀ − y (an infinite beam has no finite energy of its own):
     ``work_of_loads`` is the work V₀∫R dt (+ first-order terms) that the wall does on it, ``loss_absorbed`` what the

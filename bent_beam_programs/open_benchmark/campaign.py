@@ -64,14 +64,14 @@ class Row:
             "not run here": self.seconds is None,
             self.score.brief: not self.score.completed,
             "numbers that no solver gives": bool(seen & {"too_smooth", "copies"}),
-            "no nodal histories or no gaps": self.closed,
+            "no nodal histories or no gaps": self.unverifiable,
             "a problem whose answer is published": not self.drawn,
         }
         return next((why for why, holds in checks.items() if holds), "")
 
     @property
-    def closed(self) -> bool:
-        """Whether it is two sums, which can be right by a table of answers, and cannot be looked into."""
+    def unverifiable(self) -> bool:
+        """Whether an infinite beam's histories or gaps are missing: sums alone can be right by a table of answers."""
         return problem(self.problem).is_front and not self.score.raw
 
     @property
@@ -138,7 +138,7 @@ def campaign(
 
 def _without_praise(row: Row) -> Row:
     """A row is clean only where it can be looked into."""
-    if not row.closed:
+    if not row.unverifiable:
         return row
     kept = tuple(finding for finding in row.score.diagnosis if finding.name != "clean")
     return replace(row, score=replace(row.score, diagnosis=kept))

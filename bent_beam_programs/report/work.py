@@ -71,13 +71,13 @@ def stored_measurements() -> list[dict[str, Any]]:
 
 
 def main(names: Sequence[str]) -> None:
-    """Measure, and write rows and picture to ``stored/``, of these names (none: all). Raises ``SystemExit`` for a name
-    that no measurement has."""
+    """Measure what these names say (none: everything) and write rows and pictures to ``stored/``. Raises
+    ``SystemExit`` for a name that no measurement has."""
     known = {measurement.name: measurement for measurement in MEASUREMENTS}
     for name in names:
         if name not in known:
             raise SystemExit(f"{name} is not a measurement (known: {', '.join(known)})")
-    for one in [known[name] for name in names or known]:
+    for one in [known[name] for name in dict.fromkeys(names or known)]:
         methods = methods_from_file(*(LISTS / file for file in one.methods))
         asked = questions(methods, [KAPPA], one.firsts, one.refines)
         rows = match(asked, store=RunStore.usual(), jobs=os.cpu_count() or 1, limit=LIMIT)

@@ -106,11 +106,15 @@ def test_a_sweep_resumes_and_does_not_depend_on_jobs(tmp_path):
     both = match(asked, store=RunStore(tmp_path), jobs=2)
     assert both[:2] == first  # from the store: seconds and all
     assert {f.name: f.read_bytes() for f in tmp_path.iterdir() if f.name in kept} == kept
-    (halved,) = match([MatchQuestion(SelfSimilarFE(), 0.5, refine=0.5)], store=RunStore(tmp_path))
-    assert halved.r0 == first[0].r0  # with its bar: companions are refined as the run is
     alone = match(asked[2:])
     assert alone[0].r0 == both[2].r0
     assert alone[0].lambda0 == both[2].lambda0
+
+
+def test_a_row_that_is_refined_has_the_numbers_and_bars_of_a_method_that_is():
+    by_row = answer(MatchQuestion(SelfSimilarFE(), 0.5, refine=0.5), KEEP)
+    by_method = answer(MatchQuestion(SelfSimilarFE(refine=0.5), 0.5), KEEP)
+    assert (by_row.lambda0, by_row.r0) == (by_method.lambda0, by_method.r0)
 
 
 def test_what_fails_is_a_row_with_its_reason(tmp_path, monkeypatch):

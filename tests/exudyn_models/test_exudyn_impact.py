@@ -281,7 +281,11 @@ def test_a_very_small_axial_force_changes_nothing(end, refine):
     beam, method = Impact.whole_beam(2.0), ExudynModel(refine=refine)
     pulled, free = (method.simulate(beam.replace(axial_force=n), end_time=end, save=5) for n in (1e-8, 0.0))
     assert pulled.array("total_impulse")[-1] == pytest.approx(free.array("total_impulse")[-1], rel=1e-6)
-    assert ExudynModel(element=ANCFCable(axial_stiffness=1.0)).refuses(beam.replace(axial_force=1e-8)) is None
+
+
+def test_an_axial_stiffness_may_be_given_beside_an_axial_force_however_small():
+    weak = Impact.whole_beam(2.0).replace(axial_force=1e-8)
+    assert ExudynModel(element=ANCFCable(axial_stiffness=1.0)).refuses(weak) is None
 
 
 def test_explicit_steps_stay_stable_where_waves_along_the_beam_are_the_fastest():

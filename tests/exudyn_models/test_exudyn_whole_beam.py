@@ -124,10 +124,13 @@ def test_steps_grow_in_flight_and_keep_the_energy_and_the_impulse():
         for longest in (None, 10.0 * step)
     )  # fmt: skip
     assert grown.steps < 0.7 * alike.steps
-    assert Trapezoidal(time_step=2.0, flight_step=4.0).refined(2.0) == Trapezoidal(time_step=1.0, flight_step=2.0)
     assert restitution(grown) == pytest.approx(restitution(alike), abs=1e-5)
     assert abs(grown.array("loss_algorithmic")[-1]) < 1e-12 * grown.array("kinetic_energy")[0]
     closes(grown, 1e-7)
+
+
+def test_steps_that_are_stated_are_refined_at_the_wall_and_in_flight():
+    assert Trapezoidal(time_step=2.0, flight_step=4.0).refined(2.0) == Trapezoidal(time_step=1.0, flight_step=2.0)
 
 
 def test_an_ensemble_has_penalties_from_a_quarter_of_the_usual_on_and_coarser_elements():

@@ -71,7 +71,8 @@ def test_half_a_model_has_half_of_the_work_the_loads_and_the_stop_of_a_whole_bea
     beam = Impact.whole_beam(0.5).replace(axial_force=0.3, wall_stiffness=7.0, wall_from=0.0, wall_to=0.0)
     model, other = (beam_model(beam.replace(tension_direction=to), UniformMesh(0.1).nodes(1.0), FREE, QUIET, full=full)
                     for to in ("axis", "tangent"))  # fmt: skip
-    loads, bent = model.system.load - other.system.load, model.beam.interpolate(0.5 * (x := model.beam.nodes) ** 2, x)
+    loads, x = model.system.load - other.system.load, model.beam.nodes
+    bent = model.beam.interpolate(0.5 * x**2, x)
     assert model.copies * model.work_of_tension(bent[None]) == pytest.approx(-0.1)
     assert loads[0, -2] == pytest.approx(0.15) and model.copies * loads.sum() == pytest.approx(0.3)
     assert model.copies * model.system.springs.stiffness == 7.0

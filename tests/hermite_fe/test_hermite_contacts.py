@@ -94,7 +94,8 @@ def test_the_zone_stays_on_the_wall_with_the_hold() -> None:
 
 
 def test_what_is_held_is_closed_and_fewer_than_hold_behind_the_front_of_its_side() -> None:
-    """Or before hold_until; nothing is from hold_ends on. What else is closed pulls to its strength, h·2 N."""
+    """Rows are also held before hold_until, and none is from hold_ends on. What else is closed pulls to its strength,
+    h·2 N."""
     rank, side = np.array([1, 0, 0, 1, 2, 3]), np.array([1, 1, 0, 0, 0, 0])
     rows, closed = Rows(np.zeros((6, 1), int), np.ones((6, 1)), np.zeros(6), rank, side, np.ones(6)), rank % 2 == 0
     strength, least = np.full(6, 2.0), np.zeros(6)

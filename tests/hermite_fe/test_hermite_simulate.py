@@ -167,7 +167,7 @@ SHEAR = {"shear_stiffness": 1e4, "rotary_inertia": 1e-5}
         (0.5, 1e-3, {"wall_stiffness": 1e14}, 2000, 0.01 / 1e7, Midpoint),
     ],
 )
-def test_whole_beams_have_the_elements_steps_and_scheme_of_the_docs(kappa, damping, more, elements, step, scheme):
+def test_whole_beams_have_elements_and_steps_that_resolve_what_they_bear(kappa, damping, more, elements, step, scheme):
     impact = Impact.whole_beam(kappa, relative_damping=damping).replace(**more)
     method = HermiteFE().for_whole_beam(impact)
     assert method.mesh.nodes(impact.half_length).size == elements + 1

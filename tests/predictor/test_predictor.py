@@ -281,7 +281,8 @@ def test_a_force_that_still_rises_when_the_page_gives_up_is_no_largest() -> None
 
 
 def numbers_of(pairs: list[tuple[dict[str, Any], dict[str, Any]]]) -> list[dict[str, Any]]:
-    """What the page makes of readings of a run and of companions that are all alike, given what is not as here."""
+    """The page's numbers from the reading of a run and from companions that are all the same; each pair gives only
+    what differs from ``read``."""
     read = {"restitution": 0.5, "impulse": 3, "lastContact": 0.6, "begin": 0.5, "apart": 0.1, "returns": [], "late": {},
             "force": 0, "moment": 2, "time": 0.3, "steps": 1000, "course": [2, 2]}  # fmt: skip
     expression = """given.map(([base, companion]) => {

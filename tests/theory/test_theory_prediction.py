@@ -309,7 +309,7 @@ OF_ENDS = [(0.05, 0.0, 1.0), (0.2, 0.01, 2.0), (0.2, 1e-4, 1.0), (0.5, 0.0, 1.0)
 
 @pytest.mark.parametrize(("kappa", "quartic", "times"), OF_ENDS)
 def test_the_theory_ends_ten_lengths_of_bending_before_the_beam_does_twice_as_many_under_q0(kappa, quartic, times):
-    """Or when the zone of a flat bow has covered a third of the beam, half of what is left."""
+    """For a flat bow it ends earlier: when the zone covers a third of the beam, half of what is left."""
     impact = Impact.dimensionless(kappa, length=10.0).replace(fourth_derivative=quartic)
     found = predict(impact, [1e-3])
     spread = math.sqrt(found.valid_until / impact.slow_time_scale)  # √(ct)/ℓ

@@ -26,8 +26,8 @@ def test_report_and_gallery_show_one_result() -> None:
 
 
 def test_a_small_picture_keeps_the_colours_of_thin_lines_and_a_grey_wall_grey(tmp_path: Path) -> None:
-    """Each colour fills a line of one pixel; the rest is a smooth shade, which has most of the pixels, and a wall
-    beside random colours, far more than are kept."""
+    """Lines one pixel wide on a smooth shade that has most of the pixels; a grey wall; and a patch of more random
+    colours than are kept."""
     lines = {20: (31, 119, 180), 40: (44, 160, 44), 60: (214, 39, 40)}
     shade = np.broadcast_to(np.linspace(120, 255, 300).astype(np.uint8)[None, :, None], (200, 300, 3)).copy()
     for row, colour in lines.items():

@@ -15,11 +15,12 @@ from bent_beam.impact import Impact
 from bent_beam.meshes import UniformMesh
 from bent_beam_programs.thesis.gallery import runs
 from bent_beam_programs.thesis.gallery.runs import every_step
+from bent_beam_programs.thesis.sheet import Sheet
 from bent_beam_programs.thesis.studies import STUDIES, first_order_case, of_exudyn, run_study
 from bent_beam_programs.thesis.studies.exact import Exact
 from bent_beam_programs.thesis.studies.of_methods import runs_of_methods
 from bent_beam_programs.thesis.studies.outcome import CUT_OFF, Outcome, Steps
-from bent_beam_programs.thesis.studies.panels import unit
+from bent_beam_programs.thesis.studies.panels import contact_length, geometry, unit
 from bent_beam_programs.thesis.studies.thesis import Variant, run_variants, thesis_settings
 from exudyn_models import ExudynModel
 from hermite_fe import HermiteFE
@@ -242,3 +243,20 @@ def test_the_command_takes_methods_and_every_row_plot_and_table_carries_the_labe
     assert rows[3]["failure"] == "not varied: self_similar has no contact" and rows[3]["refused"]
     drawn, table = ((out / f"restitution{end}.csv").read_text() for end in ("", "-table"))
     assert "Mine, refined 0.5 times" in drawn and "Endless" in table
+
+
+def test_runs_of_unlike_lengths_are_drawn_to_the_longest_s_end_and_eight_of_one_path_can_be_told_apart() -> None:
+    """Where the beam is at its end is drawn of the longest alone, with the time beside it."""
+    impact, x, sheet, lines = Impact.dimensionless(0.5), np.linspace(0.0, 2.0, 50), Sheet(), []
+    for k in range(8):
+        time = np.linspace(0.0, 1.0 if k == 7 else 0.1, 30)
+        front = np.asarray(Exact(impact).front(time))
+        lines.append(Outcome(str(k), impact, None, time, front, front, 0.0 * time, 0.0 * time, x, x**2, {}, "exudyn"))
+    with sheet.figure(1, 2, height=3.0) as (_, axes):
+        geometry(sheet, axes[0], lines)
+        contact_length(sheet, axes[1], lines)
+        drawn = [line for line in axes[1].lines if line.get_marker() == "s"]
+        assert axes[1].get_xlim()[1] == pytest.approx(1.0) and len({(a.get_color(), a.get_ls()) for a in drawn}) == 8
+        assert "at 1 s" in axes[0].get_ylabel()
+    series = [{name for axis, name, *_ in sheet.curves if axis is panel} for panel in axes]
+    assert series == [{"theory", "7"}, {"theory", *map(str, range(8))}]

@@ -53,12 +53,13 @@ def evolution(sheet: Sheet, contact: str) -> None:
             sheet.line(axis, places, flat, series=f"theory, t = {readable(last, 3)} s", **style.THEORY)
             sheet.numbers[f"largest lift inside the zone (mm), {mass} mass"] = lift = 1e3 * found.lift
             style.wall_below(axis, -1.4 * lift, 0.25 * lift)
-    for mass in MASSES if contact == "middle" else ():
-        straight = run("straight", mass)
-        sheet.numbers |= {
-            f"largest lift (mm), straight lines, {mass} mass": 1e3 * straight.lift,
-            f"strain energy at 2.5·10⁻⁴ s (J), straight lines, {mass} mass": float(straight.strain[-1]),
-        }
+    if contact == "middle":
+        for mass in MASSES:
+            straight = run("straight", mass)
+            sheet.numbers |= {
+                f"largest lift (mm), straight lines, {mass} mass": 1e3 * straight.lift,
+                f"strain energy at 2.5·10⁻⁴ s (J), straight lines, {mass} mass": float(straight.strain[-1]),
+            }
 
 
 EVOLUTION = (

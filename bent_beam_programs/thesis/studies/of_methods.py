@@ -18,7 +18,7 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import NullFormatter
 
 from bent_beam.cases import Case
-from bent_beam.errors import ANY_FAILURE
+from bent_beam.errors import ANY_FAILURE, InputError
 from bent_beam.meshes import MESHES, Mesh
 from bent_beam.method import Method, chosen_for, refined
 from bent_beam_programs.thesis.sheet import Sheet
@@ -51,7 +51,8 @@ class MethodOnCase:
     case: Case
 
     def setting(self, name: str, method: Method, value: float | None = None, **others: Any) -> Variant:
-        """A run with one value of the varied parameter, named alike for all methods. others : impact, end_time."""
+        """A run with one value of the varied parameter, named alike for all methods. others : impact, end_time
+        where they are not the case's."""
         about: dict[str, Any] = {"impact": self.case.impact, "end_time": self.case.end_time} | others
         return Variant(self.method.label, method=method, value=value, setting=name, **about)
 
@@ -137,21 +138,25 @@ def runs_of_methods(
     """
     found: list[Variant | Outcome] = []
     for method, factor in product(methods, refines):
-        try:
-            finer = refined(method, factor)
-            if finer is None:
-                reason = f"refine: {method.path} does not know how to be refined (got {factor:g})"
-            elif not (reason := finer.refuses(case.impact) or ""):
-                runs = vary(MethodOnCase(finer, case))
-                found += [dataclasses.replace(run, label=method.label, refine=factor) for run in runs]
-                continue
-        except NotVaried as error:
-            reason = f"not varied: {error}"
-        except ANY_FAILURE as error:
-            reason = str(error)
         asked = Variant(method.label, case.impact, case.end_time, method, refine=factor)
-        found.append(asked.lost(reason, refused=True))
+        try:
+            runs = vary(MethodOnCase(_usable(method, factor, case), case))
+            found += [dataclasses.replace(run, label=method.label, refine=factor) for run in runs]
+        except NotVaried as error:
+            found.append(asked.lost(f"not varied: {error}", refused=True))
+        except ANY_FAILURE as error:
+            found.append(asked.lost(str(error), refused=True))
     return found
+
+
+def _usable(method: Method, factor: float, case: Case) -> Method:
+    """A refined copy. Raises ``InputError`` where there is none, or it refuses the case."""
+    finer = refined(method, factor)
+    if finer is None:
+        raise InputError(f"refine: {method.path} does not know how to be refined (got {factor:g})")
+    if reason := finer.refuses(case.impact):
+        raise InputError(reason)
+    return finer
 
 
 def draw_methods(sheet: Sheet, heading: str, outcomes: Sequence[Outcome]) -> None:

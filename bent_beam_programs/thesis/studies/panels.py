@@ -24,6 +24,7 @@ Panel = Callable[[Sheet, Axes, Sequence[Outcome]], None]
 PREFIX = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M"}
 REACH = 1.25  # contact lengths shown
 MARKS = 18  # markers on the curve of a reference
+ALIKE = 0.9  # of the longest run's end: a run that ends from then on, on steps of its own, ends with it
 WINDOWS = 30  # means of a reaction
 TENTHS = (0.1, 0.9)  # of the filtered reaction, between which a band lies
 LINES = [style.COLOURS[c] for c in ("vermilion", "sky", "purple", "orange", "grey", "green", "blue")]
@@ -75,17 +76,18 @@ def _thin(along: Array, line: dict[str, Any]) -> Any:
 
 
 def geometry(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome]) -> None:
-    """Deflection y = −gap over x at the end of the longest runs; the wall is the grey half plane below."""
-    runs, end = _finished(outcomes), _end(outcomes)
-    runs = [(o, line) for o, line in runs if o.time[-1] > 0.9 * end]
+    """Deflection y = −gap over x at the end of the longest runs, others left out; the wall is the grey half plane."""
+    finished, end = _finished(outcomes), _end(outcomes)
+    runs = [(o, line) for o, line in finished if o.time[-1] > ALIKE * end]
     exact = runs[0][0].exact
     edge = REACH * max(float(exact.front(end)), 0.25 * exact.impact.length_scale * math.sqrt(exact.tau(end)))
     gaps = np.concatenate([o.gap[o.x <= edge / REACH] for o, _ in runs])
     shown = 1.1 * float(exact.gap(np.array([edge]), end)[0])  # more would be empty
     high = max(1.4 * float(gaps.max()), min(shown, 0.01 * float(exact.impact.velocity * end)))
     deep = max(0.25 * high, -1.3 * float(gaps.min()))
-    (sx, mx), (sy, my) = unit(edge, "m"), unit(high, "m")
-    axis.set(xlabel=f"$x$  ({mx})", ylabel=f"deflection $y$  ({my})", xlim=(0.0, sx * edge))
+    (sx, mx), (sy, my), (st, mt) = unit(edge, "m"), unit(high, "m"), unit(end, "s")
+    when = f" at {st * end:.3g} {mt}" if len(runs) < len(finished) else ""
+    axis.set(xlabel=f"$x$  ({mx})", ylabel=f"deflection $y${when}  ({my})", xlim=(0.0, sx * edge))
     places = np.linspace(0.0, edge, 400)
     sheet.line(axis, sx * places, -sy * exact.gap(places, end), series="theory", **style.THEORY)
     for o, line in runs:
