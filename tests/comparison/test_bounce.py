@@ -144,14 +144,19 @@ def test_a_run_until_separation_ends_off_the_wall_on_either_path(path, tmp_path)
 def test_the_command_gives_numbers_with_bars_figures_and_the_stress_of_the_largest_moment(tmp_path, monkeypatch):
     monkeypatch.setattr("comparison.figures.history.FRAMES", 2)
     out = tmp_path / "out"
-    found = answered("bounce", rod(tmp_path, element=0.1), "--path", "hermite", "--path", "exudyn", "--out", out)
+    twice = ("--set", "impact.velocity=2.0")
+    found = answered(
+        "bounce", rod(tmp_path, element=0.1), *twice, "--path", "hermite", "--path", "exudyn", "--out", out
+    )
     assert {file.name for file in out.iterdir()} == {"bounce.json", "bounce.png", "bounce.gif"}
     assert [one["path"] for one in found["paths"]] == ["hermite", "exudyn"]
     assert json.loads((out / "bounce.json").read_text()) == {n: v for n, v in found.items() if n != "files"}
     assert set(found["energy"]) == {"translation", "vibration", "dissipated"}
     assert {"restitution", "impulse", "last_contact", "separations", "peak_moment", "midspan_moment"} <= set(found)
     assert 0.0 < found["restitution"]["value"] < 1.0 and found["left"]
-    modulus = math.pi * 0.02**3 / 32.0
+    momentum, modulus = 7850.0 * math.pi * 0.01**2 * 2.0, math.pi * 0.02**3 / 32.0
+    impulse, restitution = found["si"]["impulse"]["value"], found["restitution"]["value"]
+    assert impulse == pytest.approx(momentum * (1.0 + restitution), rel=1e-6)
     for key in ("value", "error"):
         assert found["peak_stress"][key] == pytest.approx(found["si"]["peak_moment"][key] / modulus, rel=1e-12)
     assert found["si"]["peak_moment_time"]["value"] > 0.0
@@ -168,6 +173,13 @@ def test_the_runs_of_a_band_are_coarser_and_of_many_sizes() -> None:
     runs = Question(problem(2.0, 0.0), HermiteFE(contact=MiddleContact()), band=(20, 1)).companions().values()
     finer = [one.refine for _, one in runs]
     assert 2.0**-1.5 < min(finer) < 0.42 and 0.6 < max(finer) < 2.0**-0.5
+
+
+@pytest.mark.parametrize(("share", "times"), [(0.4, 1.0), (0.1, 2.0 ** (2 / 3)), (0.04, 2.0), (0.01, 10.0**0.5)])
+def test_the_sooner_a_run_ends_the_finer_are_its_elements(share, times) -> None:
+    whole = Question(problem(2.0, 0.01), HermiteFE())
+    early = dataclasses.replace(whole, until=share * whole.impact.slow_time_scale)
+    assert whole.run_by.mesh.element_length / early.run_by.mesh.element_length == pytest.approx(times)
 
 
 class Mortal(HermiteFE):
