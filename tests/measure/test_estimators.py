@@ -221,6 +221,8 @@ def test_a_zone_that_should_lift_and_does_not_widens_the_error_bars():
     free, stuck = (first_order(some, base, leading, pressure=-1.0) for some in (lifted, runs))
     whole = contact_parameters(0.5).lambda0 / SIDE  # of the load
     assert stuck.r1.bar == pytest.approx(free.r1.bar + whole, rel=0.02)
+    twice, once = (first_order(runs, base, leading, pressure=p).r1.parts["uniform_reaction"] for p in (-2.0, -1.0))
+    assert twice == pytest.approx(2.0 * once, rel=0.02)
     pushes = [(e, dataclasses.replace(run, pressure=run.pressure + 0.5 * e)) for e, run in runs]
     on_springs = first_order(pushes, base, leading, pressure=-1.0)  # what pushes on adds to what should have lifted
     assert on_springs.r1.bar > stuck.r1.bar + 0.5 * whole
