@@ -22,7 +22,7 @@ def test_a_steel_rod_of_20_mm_and_2_m_sounds_at_23_hertz() -> None:
 
 
 @pytest.mark.parametrize("loss", [1e-4, 0.1, 0.3, 1.0])
-@pytest.mark.parametrize("times", [0.01, 1.0, 3e4])
+@pytest.mark.parametrize("times", [1.1e-3, 1.0, 9e5])
 def test_the_loss_is_constant_within_a_tenth_over_its_range_and_holds_with_the_modulus_where_it_is_asked(loss, times):
     impact = lossy(loss, times)
     branches = branches_of(impact)

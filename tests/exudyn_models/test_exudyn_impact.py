@@ -63,10 +63,10 @@ def test_hits_of_a_damped_thin_front_take_no_impulse():
     assert history.array("total_impulse")[-1] == pytest.approx(0.9172, rel=6e-3)
 
 
-@pytest.mark.parametrize(("eta", "expected"), [(0.0, 40.0), (1e-3, 3.0)])
-def test_hits_are_plastic_at_a_thin_front_that_nothing_damps(eta, expected):
+@pytest.mark.parametrize(("eta", "refine", "expected"), [(0.0, 1.0, 40.0), (0.0, 0.5, 20.0), (1e-3, 1.0, 3.0)])
+def test_hits_are_plastic_at_a_thin_front_that_nothing_damps_the_less_so_in_the_coarser_run(eta, refine, expected):
     beam = Impact.whole_beam(0.02, relative_damping=eta)
-    parts = {"mesh": UniformMesh(0.05), "integrator": GeneralizedAlpha(time_step=1e-5), "save": 2}
+    parts = {"mesh": UniformMesh(0.05), "integrator": GeneralizedAlpha(time_step=1e-5), "save": 2, "refine": refine}
     contact = exudyn_models.simulate(beam, end_time=1e-4, **parts).settings["contact"]
     assert contact["relative_damping"] == pytest.approx(expected * math.sqrt(contact["relative_stiffness"] / 10.0))
 
