@@ -105,14 +105,10 @@ def note_of(name: str, folder: Path) -> dict[str, Any]:
 
 def lost(name: str, reason: str) -> dict[str, Any]:
     """The note of a study that could not be run."""
-    found = {"columns": {}, "rows": [], "failed": True, "reason": reason, "date": today()}
-    return {"name": name, **words_of(name), **found}
-
-
-def words_of(name: str) -> dict[str, str]:
-    """What is said of a study, whatever its numbers."""
     study, case = STUDIES[name], case_of(name)
-    return {"title": study.title, "case": case.title, "conclusion": study.conclusion, "says": SAYS.get(name, "")}
+    said = {"name": name, "title": study.title, "case": case.title, "conclusion": study.conclusion}
+    found = {"columns": {}, "rows": [], "failed": True, "reason": reason, "date": today()}
+    return said | {"says": SAYS.get(name, "")} | found
 
 
 def store_studies(*, file: Path = FILE, jobs: int = 1) -> Path:

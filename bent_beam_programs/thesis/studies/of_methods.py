@@ -140,23 +140,17 @@ def runs_of_methods(
     for method, factor in product(methods, refines):
         asked = Variant(method.label, case.impact, case.end_time, method, refine=factor)
         try:
-            runs = vary(MethodOnCase(_usable(method, factor, case), case))
+            if (finer := refined(method, factor)) is None:
+                raise InputError(f"refine: {method.path} does not know how to be refined (got {factor:g})")
+            if reason := finer.refuses(case.impact):
+                raise InputError(reason)
+            runs = vary(MethodOnCase(finer, case))
             found += [dataclasses.replace(run, label=method.label, refine=factor) for run in runs]
         except NotVaried as error:
             found.append(asked.lost(f"not varied: {error}", refused=True))
         except ANY_FAILURE as error:
             found.append(asked.lost(str(error), refused=True))
     return found
-
-
-def _usable(method: Method, factor: float, case: Case) -> Method:
-    """A refined copy. Raises ``InputError`` where there is none, or it refuses the case."""
-    finer = refined(method, factor)
-    if finer is None:
-        raise InputError(f"refine: {method.path} does not know how to be refined (got {factor:g})")
-    if reason := finer.refuses(case.impact):
-        raise InputError(reason)
-    return finer
 
 
 def draw_methods(sheet: Sheet, heading: str, outcomes: Sequence[Outcome]) -> None:
