@@ -14,6 +14,7 @@ from bent_beam.measure.whole_impact import whole_impact
 from bent_beam.meshes import ScaleFreeMesh, UniformMesh
 from bent_beam.method import simulate_to_separation
 from hermite_fe import HermiteFE, simulate
+from hermite_fe.beam import HermiteBeam
 from hermite_fe.constraints import ContactLaw, Rows, set_bounds
 from hermite_fe.contacts import CONTACTS, AlternateContact, Contact, MiddleContact, NodeContact
 from hermite_fe.far_fields import GridViscosity
@@ -91,6 +92,15 @@ def test_the_zone_stays_on_the_wall_with_the_hold() -> None:
         assert history.array("held_impulse")[-1] < 0.0
         assert history.settings["hold"]["until"] == 0.3
         assert history.settings["hold"]["pull"] > 0.0
+
+
+@pytest.mark.parametrize("contact", [NodeContact(), MiddleContact()])
+def test_rows_of_a_whole_beam_are_counted_from_the_middle_to_either_end(contact: Contact) -> None:
+    beam = HermiteBeam(np.linspace(-1.0, 1.0, 9), 1.0, 1.0)
+    rows = contact.rows(beam, np.zeros(18), full=True)
+    assert np.array_equal(rows.side, rows.places < 0.0)
+    for side, outwards in ((0, 1), (1, -1)):
+        assert np.all(np.diff(rows.rank[rows.side == side][::outwards]) == 1)
 
 
 def test_what_is_held_is_closed_and_fewer_than_hold_behind_the_front_of_its_side() -> None:

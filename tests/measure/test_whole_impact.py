@@ -13,6 +13,7 @@ from histories import history_of, pushed_until
 from bent_beam.as_json import json_text
 from bent_beam.free_flight import LOWEST_PERIOD, Separation, cannot_return, has_left, may_return
 from bent_beam.history import ImpactHistory
+from bent_beam.hysteresis import branches_of
 from bent_beam.impact import Impact
 from bent_beam.measure.reduction import peak_moment
 from bent_beam.measure.whole_impact import hits, peak_times, pushes, whole_impact
@@ -211,10 +212,12 @@ def test_a_beam_that_has_left_does_not_return_and_one_that_swings_as_wide_as_it_
     flat, up, rigid = 0.5 * 2.0 * x**2, -0.5 * np.ones_like(x), 0.5 * 2.0 * 0.5**2
     # unit force on an end, held by inertia: Q = 3u² − 2u, M = Lu²(u − 1), L = 2; what the end yields by
     bends, shears = 8.0 * np.trapezoid((u**3 - u**2) ** 2, u), 2.0 * np.trapezoid((3.0 * u**2 - 2.0 * u) ** 2, u)
+    lossy = Impact.whole_beam(2.0).replace(hysteretic_loss=0.1, loss_frequency=1.0)
     for impact, yields in (
         (Impact.whole_beam(2.0), bends),
         (Impact.whole_beam(2.0).replace(bending_stiffness=3.0), bends / 3.0),
         (Impact.whole_beam(2.0, shear_length=0.5), bends + 0.25 * shears),
+        (lossy, bends / branches_of(lossy).relaxed),  # held long enough
     ):
         reach = math.sqrt(2.0 * 0.1 * yields)
         assert cannot_return(impact, x, flat + 1.01 * reach, up, rigid + 0.1)
