@@ -19,6 +19,7 @@ def test_groups_of_the_thesis_cases():
     impact = Impact(**THESIS)
     found = (impact.kappa_over_nu, impact.time_scale, impact.length_scale, impact.epsilon)
     assert found == pytest.approx((0.5, 1 / 400, 1 / 20, 4e-6))
+    assert not any(getattr(impact, name) for name in loads_of(Impact))  # none that nobody stated
     curved = Impact(**THESIS | {"curvature": 12.0}, wall_curvature=2.0)  # it is bent less against such a wall
     assert (curved.relative_curvature, curved.kappa_over_nu) == pytest.approx((10.0, 0.5))
     impact = Impact(1.0, 1.0, 2.0, 0.35, 3.5, acceleration=700.0)

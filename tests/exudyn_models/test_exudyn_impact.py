@@ -56,6 +56,13 @@ def test_steps_grow_with_time_and_cover_the_run_none_shorter_but_for_a_round_num
     assert found[0].length <= first * (1.0 + 1e-9)
 
 
+def test_a_run_that_is_twice_as_fine_has_half_the_steps_and_elements():
+    usual, fine = (ExudynModel(refine=refine).chosen(HALF, 0.1) for refine in (1.0, 2.0))
+    assert fine.integrator.relative_step == 0.5 * usual.integrator.relative_step
+    first, second = (one.mesh.places[1] for one in (usual, fine))
+    assert second == pytest.approx(0.5 * first, rel=0.02)
+
+
 @verify
 def test_hits_of_a_damped_thin_front_take_no_impulse():
     """7 % were missing with the damping of hits that an undamped front needs. The Hermite path's, converged: 0.917."""
