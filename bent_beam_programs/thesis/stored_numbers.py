@@ -24,7 +24,7 @@ PAGE = Path(__file__).resolve().parents[2] / "docs" / "thesis_numbers.md"
 
 
 def main() -> None:
-    """Raises ``OSError`` for a figure that the folder lacks."""
+    """Store table and figures of a gallery folder. Raises ``OSError`` for a figure that it lacks."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("gallery", type=Path, metavar="GALLERY", help="a folder that bentbeam gallery has drawn")
     gallery: Path = parser.parse_args().gallery
