@@ -1,0 +1,128 @@
+"""Beams of which nothing is one: both paths say the same, and a half of a beam is half of it, by every part."""
+
+import re
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from twins import in_units
+
+from bent_beam import Impact
+from bent_beam.files import UNITS
+from bent_beam.meshes import NodesMesh, UniformMesh
+from exudyn_models import ExudynModel, simulate
+from exudyn_models.contacts import Penalty, Rigid, SegmentFriction
+from exudyn_models.elements import ANCFCable, GeometricallyExact
+from exudyn_models.geometry import LinearLimit
+from exudyn_models.integrators import RK44, Newmark
+from hermite_fe import HermiteFE
+
+NO_WALL = Penalty(relative_stiffness=1e-20, relative_damping=0.0, hold_start=0.0)
+OTHER = {"kg": 3.0, "m": 0.5, "s": 2.0}
+BEAM = Impact(2.0, 3.0, 2.4, 1.8, 1.25, damping=4e-3, acceleration=0.8)
+BOW = BEAM.replace(curvature_rate=0.6, fourth_derivative=0.5)
+SOFT = BEAM.replace(wall_stiffness=6e3, wall_damping=40.0)
+SHEARED = BEAM.replace(shear_stiffness=150.0, rotary_inertia=5e-3)
+LOSSES = ("loss_impact", "loss_material", "loss_viscous", "loss_algorithmic")
+EXACT = {"element": GeometricallyExact()}
+
+
+def followed(impact, end, method):
+    """To a share of T*, as a whole impact where waves return."""
+    end *= impact.slow_time_scale
+    whole = method.for_whole_beam(impact) if end > 0.01 * impact.slow_time_scale else method
+    return whole.simulate(impact, end_time=end, save=np.linspace(0.0, end, 13))
+
+
+@pytest.mark.parametrize(
+    ("impact", "end", "element", "parts"),
+    [
+        (BOW, 0.15, 0.04, {}),
+        (BOW, 0.15, 0.03, EXACT),
+        (BEAM.replace(natural_curvature=0.4, wall_curvature=-0.3), 0.15, 0.04, {}),
+        (BEAM.replace(axial_force=2.5, tension_direction="tangent"), 0.15, 0.04, {}),
+        (BEAM.replace(axial_force=20.0), 0.009, 0.012, {}),
+        (BEAM.replace(axial_force=-2.5), 0.15, 0.04, {}),
+        (BEAM.replace(rotation=0.3, first_touch=0.2), 0.15, 0.04, {}),
+        (SHEARED.replace(axial_force=1.5), 0.15, 0.02, {}),
+        (SOFT.replace(wall_from=-0.4, wall_to=0.3), 0.1, 0.03, {}),
+        (SOFT.replace(curvature=0.3, left_end="hinged", right_end="clamped"), 0.1, 0.03, {}),
+    ],
+    ids=lambda given: "",
+)
+def test_both_paths_say_the_same_of_a_beam_of_which_nothing_is_one(impact, end, element, parts):
+    """What beam, loads and contact have and lose of energy, too, but for which of them took what a hit takes."""
+    mesh = UniformMesh(element)
+    exudyn, hermite = (followed(impact, end, kind) for kind in (ExudynModel(mesh=mesh, **parts), HermiteFE(mesh=mesh)))
+    within = {"gap": 2e-3, "slope": 3e-3, "angle": 3e-3, "velocity": 2e-2, "total_impulse": 1e-3, "work_of_loads": 1e-3,
+              "largest_moment": 0.02, "strain_energy": 0.01, "bending_moment": 0.01, "angular_velocity": 0.01,
+              "peak_force": 4e-3, "peak_pressure": 2e-3, "peak_penetration": 2e-3, "loss_wall": 1e-2}  # fmt: skip
+    for name in within.keys() & exudyn.dataset.keys():
+        ours, theirs = exudyn.array(name)[-1], hermite.array(name)[-1]
+        assert np.abs(ours - theirs).max() <= within[name] * np.abs(theirs).max(), name
+    taken = [sum(run.array(name) for name in LOSSES if name in run.dataset) for run in (exudyn, hermite)]
+    initial, stored = hermite.array("kinetic_energy")[0], exudyn.array("contact_energy")[-1]
+    assert taken[0][-1] + stored - taken[1][-1] == pytest.approx(0.0, abs=0.01 * initial)
+    for run in (exudyn, hermite):
+        assert run.array("kinetic_energy")[-1] == pytest.approx(hermite.array("kinetic_energy")[-1], rel=4e-3)
+
+
+@pytest.mark.parametrize(
+    ("impact", "end", "parts"),
+    [
+        (BOW.replace(damping=0.0), 0.008, {}),
+        (BOW, 0.008, {"contact": Penalty(hold=4, hold_start=0.01)}),
+        (BOW, 0.1, {"contact": Rigid(hold=3), "integrator": Newmark()}),
+        (BOW, 0.1, {"contact": SegmentFriction(friction=0.2)}),
+        (BOW, 0.003, {"integrator": RK44()}),
+        (BOW.replace(axial_force=1.5), 0.1, EXACT),
+        (SHEARED.replace(curvature_rate=0.6, fourth_derivative=0.5), 0.1, {}),
+        (BEAM.replace(axial_force=-1.5, wall_curvature=-0.3), 0.005, {}),
+        (SOFT.replace(wall_from=-0.6, wall_to=0.6), 0.02, {}),
+        (SOFT.replace(wall_from=0.0, wall_to=0.0, left_end="clamped", right_end="clamped"), 0.003, {}),
+        (BEAM.replace(acceleration=-8.0, curvature=0.1, opposite_wall=0.15), 0.4, {}),
+    ],
+    ids=lambda given: "",
+)
+def test_a_beam_is_its_half_and_the_image_of_it_however_small_its_deflections_are_made(impact, end, parts):
+    small = {} if isinstance(parts.get("contact"), SegmentFriction) else {"geometry": LinearLimit(amplitude=2e-5)}
+    halves = {"full_beam": True, **small}, {}
+    whole, half = (followed(impact, end, ExudynModel(mesh=UniformMesh(0.12), **parts, **more)) for more in halves)
+    for name in (UNITS.keys() & half.dataset.keys()) - {"x", "contact_x", "largest_moment_place"}:
+        theirs, images = half.array(name), [whole.array(name)]
+        unit = half.array("kinetic_energy")[0] if UNITS[name] == "J" else np.abs(theirs).max(initial=0.0)
+        if theirs.ndim == 2:
+            middle, sign = theirs.shape[1] - 1, -1.0 if name in ("slope", "angle", "angular_velocity") else 1.0
+            images = [images[0][:, middle:].copy(), sign * images[0][:, middle::-1]]
+        if name in ("impulse", "opposite_impulse"):
+            images[0][:, 0] /= 2.0
+            images[1][:, 0] /= 2.0
+        for ours in images:
+            assert np.abs(ours - theirs).max() <= 1e-4 * unit, name
+
+
+@pytest.mark.parametrize(
+    ("element", "psi", "chi", "tension", "more"),
+    [
+        *((kind(), 0.3, 0.2, 0.0, {}) for kind in (ANCFCable, GeometricallyExact)),
+        *((kind(), 0.0, 0.0, tension, {}) for kind in (ANCFCable, GeometricallyExact) for tension in (1.0, -1.0)),
+        (GeometricallyExact(), 0.3, 0.2, 0.0, {"shear_stiffness": 4.0, "rotary_inertia": 0.1}),
+    ],
+)
+def test_without_contact_y0_is_the_motion(element, psi, chi, tension, more):
+    """In units in which nothing is one, damped; what the run says of itself is true."""
+    loads = {"epsilon_alpha": 0.4, "epsilon_psi": psi, "epsilon_chi": chi, "epsilon_axial": tension, "damping": 0.05}
+    impact = in_units(Impact.dimensionless(0.5, **loads).replace(**more), OTHER)
+    mesh = NodesMesh(tuple(np.linspace(0.0, 1.0, 41)))
+    parts = {"mesh": mesh, "element": element, "contact": NO_WALL}  # both ends of cables, half a beam of the others
+    history = simulate(impact, end_time=1.0, full_beam=element == ANCFCable(), **parts)
+    x, t = history.array("x") / 0.5, history.time[-1] / 2.0
+    y0 = t - 0.25 * x**2 + 0.2 * t**2 + 0.5 * chi * x**2 * t + psi * x**4 / 24
+    slope = -0.5 * x + chi * x * t + psi * x**3 / 6.0 + (psi * x / 4.0 if more else 0.0)  # and l_s² y‴
+    assert_allclose(-history.array("gap")[-1] / 0.5, y0, atol=2e-4)
+    assert_allclose(history.array("velocity")[-1] / 0.25, 1.0 + 0.4 * t + 0.5 * chi * x**2, atol=1e-3)
+    assert_allclose(history.array("angle" if more else "slope")[-1], slope, atol=1e-3)
+    budget = history.energy_budget()
+    assert abs(budget["defect"]) < 1e-6 * budget["initial_energy"]
+    said = [float(re.findall(r"[\d.]+", warning)[0]) for warning in history.warnings]
+    assert said == pytest.approx([110.0, 8.0**0.5], abs=0.02)  # depth, % of V₀t; half length, Λ
