@@ -10,7 +10,7 @@ from twins import in_units
 from bent_beam import Impact
 from bent_beam.files import UNITS
 from bent_beam.meshes import NodesMesh, UniformMesh
-from exudyn_models import ExudynModel, simulate
+from exudyn_models import ExudynModel, build, simulate
 from exudyn_models.contacts import Penalty, Rigid, SegmentFriction
 from exudyn_models.elements import ANCFCable, GeometricallyExact
 from exudyn_models.geometry import LinearLimit
@@ -48,7 +48,6 @@ def followed(impact, end, method):
         (SOFT.replace(wall_from=-0.4, wall_to=0.3), 0.1, 0.03, {}),
         (SOFT.replace(curvature=0.3, left_end="hinged", right_end="clamped"), 0.1, 0.03, {}),
     ],
-    ids=lambda given: "",
 )
 def test_both_paths_say_the_same_of_a_beam_of_which_nothing_is_one(impact, end, element, parts):
     """What beam, loads and contact have and lose of energy, too, but for which of them took what a hit takes."""
@@ -82,7 +81,6 @@ def test_both_paths_say_the_same_of_a_beam_of_which_nothing_is_one(impact, end, 
         (SOFT.replace(wall_from=0.0, wall_to=0.0, left_end="clamped", right_end="clamped"), 0.003, {}),
         (BEAM.replace(acceleration=-8.0, curvature=0.1, opposite_wall=0.15), 0.4, {}),
     ],
-    ids=lambda given: "",
 )
 def test_a_beam_is_its_half_and_the_image_of_it_however_small_its_deflections_are_made(impact, end, parts):
     small = {} if isinstance(parts.get("contact"), SegmentFriction) else {"geometry": LinearLimit(amplitude=2e-5)}
@@ -126,3 +124,31 @@ def test_without_contact_y0_is_the_motion(element, psi, chi, tension, more):
     assert abs(budget["defect"]) < 1e-6 * budget["initial_energy"]
     said = [float(re.findall(r"[\d.]+", warning)[0]) for warning in history.warnings]
     assert said == pytest.approx([110.0, 8.0**0.5], abs=0.02)  # depth, % of V₀t; half length, Λ
+
+
+@pytest.mark.parametrize(
+    ("impact", "end", "parts"),
+    [
+        (BOW, 0.15, {}),
+        (BEAM.replace(rotation=0.3, first_touch=0.2), 0.15, {}),
+        (SOFT.replace(wall_damping=0.0), 0.1, {}),
+        (SOFT.replace(wall_damping=0.0, curvature=0.3, left_end="hinged", right_end="clamped"), 0.05, {}),
+        (BOW, 0.05, {"contact": SegmentFriction(friction=0.2)}),
+    ],
+)
+def test_what_plain_exudyn_reads_at_the_end_is_what_simulate_reads(impact, end, parts):
+    mesh = UniformMesh(0.06)
+    history = followed(impact, end, ExudynModel(mesh=mesh, **parts))
+    model = build(impact, end_time=end * impact.slow_time_scale, mesh=mesh, **parts)
+    model.mbs.SolveDynamic(model.settings)
+    read = {name: model.mbs.GetSensorStoredData(number)[:, 1:] for name, number in model.sensors.items()}
+    middle = int(np.argmin(np.abs(history.positions(-1))))
+    energies = [history.array(f"{kind}_energy")[-1] for kind in ("kinetic", "strain", "contact")]
+    assert read["energy"][-1] == pytest.approx(energies, rel=0.015)
+    place, velocity = -history.array("gap")[-1, middle], history.array("velocity")[-1, middle]
+    assert read["midpoint"][-1] == pytest.approx([place, velocity], rel=0.015)
+    assert ("impulse" in read) is not impact.supported
+    if "impulse" in read:
+        assert read["impulse"][-1, 0] == pytest.approx(history.array("total_impulse")[-1], rel=2e-3)
+    if "peak_force" in history:
+        assert read["force"].max() == pytest.approx(history.array("peak_force")[-1], rel=5e-3)

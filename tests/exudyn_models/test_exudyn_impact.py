@@ -55,10 +55,13 @@ def test_steps_grow_with_time_and_cover_the_run_none_shorter_but_for_a_round_num
     assert found[0].length <= first * (1.0 + 1e-9)
 
 
-def test_a_run_that_is_twice_as_fine_has_half_the_steps_and_elements():
-    usual, fine = (ExudynModel(refine=refine).chosen(HALF, 0.1) for refine in (1.0, 2.0))
-    assert fine.integrator.relative_step == 0.5 * usual.integrator.relative_step
-    first, second = (one.mesh.places[1] for one in (usual, fine))
+def test_a_run_that_is_twice_as_fine_has_half_the_steps_and_elements_and_one_that_measures_a_load_shorter_steps():
+    pressed = Impact.dimensionless(0.5, epsilon_alpha=1.0)
+    runs = ((HALF, 1.0), (HALF, 2.0), (pressed, 1.0), (pressed, 2.0))
+    chosen = [ExudynModel(refine=refine).chosen(impact, 0.1, for_loads=True) for impact, refine in runs]
+    steps = [one.integrator.relative_step for one in chosen]
+    assert steps[1::2] == [0.5 * steps[0], 0.5 * steps[2]] and steps[2] < 0.5 * steps[0]
+    first, second = (one.mesh.places[1] for one in chosen[:2])
     assert second == pytest.approx(0.5 * first, rel=0.02)
 
 
