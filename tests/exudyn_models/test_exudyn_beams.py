@@ -23,7 +23,8 @@ BEAM = Impact(2.0, 3.0, 2.4, 1.8, 1.25, damping=4e-3, acceleration=0.8)
 BOW = BEAM.replace(curvature_rate=0.6, fourth_derivative=0.5)
 SOFT = BEAM.replace(wall_stiffness=6e3, wall_damping=40.0)
 SHEARED = BEAM.replace(shear_stiffness=150.0, rotary_inertia=5e-3)
-LOSSES = ("loss_impact", "loss_material", "loss_viscous", "loss_algorithmic")
+STOP = {"wall_from": 0.5, "wall_to": 0.5, "wall_stiffness": 900.0}
+TAKEN = ("loss_impact", "loss_material", "loss_viscous", "loss_algorithmic", "contact_energy")
 EXACT = {"element": GeometricallyExact()}
 
 
@@ -47,6 +48,8 @@ def followed(impact, end, method):
         (SHEARED.replace(axial_force=1.5), 0.15, 0.02, {}),
         (SOFT.replace(wall_from=-0.4, wall_to=0.3), 0.1, 0.03, {}),
         (SOFT.replace(curvature=0.3, left_end="hinged", right_end="clamped"), 0.1, 0.03, {}),
+        (SOFT.replace(shear_stiffness=150.0, rotary_inertia=5e-3), 0.1, 0.02, {}),
+        (SHEARED.replace(curvature=0.0, left_end="hinged", **STOP), 0.1, 0.02, {}),
     ],
 )
 def test_both_paths_say_the_same_of_a_beam_of_which_nothing_is_one(impact, end, element, parts):
@@ -54,16 +57,16 @@ def test_both_paths_say_the_same_of_a_beam_of_which_nothing_is_one(impact, end, 
     mesh = UniformMesh(element)
     exudyn, hermite = (followed(impact, end, kind) for kind in (ExudynModel(mesh=mesh, **parts), HermiteFE(mesh=mesh)))
     within = {"gap": 2e-3, "slope": 3e-3, "angle": 3e-3, "velocity": 2e-2, "total_impulse": 1e-3, "work_of_loads": 1e-3,
-              "largest_moment": 0.02, "strain_energy": 0.01, "bending_moment": 0.01, "angular_velocity": 0.01,
+              "largest_moment": 0.02, "strain_energy": 0.01, "bending_moment": 0.01, "angular_velocity": 0.02,
               "peak_force": 4e-3, "peak_pressure": 2e-3, "peak_penetration": 2e-3, "loss_wall": 1e-2}  # fmt: skip
     for name in within.keys() & exudyn.dataset.keys():
         ours, theirs = exudyn.array(name)[-1], hermite.array(name)[-1]
         assert np.abs(ours - theirs).max() <= within[name] * np.abs(theirs).max(), name
-    taken = [sum(run.array(name) for name in LOSSES if name in run.dataset) for run in (exudyn, hermite)]
-    initial, stored = hermite.array("kinetic_energy")[0], exudyn.array("contact_energy")[-1]
-    assert taken[0][-1] + stored - taken[1][-1] == pytest.approx(0.0, abs=0.01 * initial)
-    for run in (exudyn, hermite):
-        assert run.array("kinetic_energy")[-1] == pytest.approx(hermite.array("kinetic_energy")[-1], rel=4e-3)
+    assert exudyn.array("kinetic_energy")[-1] == pytest.approx(hermite.array("kinetic_energy")[-1], rel=5e-3)
+    runs, initial = (exudyn, hermite), hermite.energy_budget()["initial_energy"]
+    ours, theirs = (sum(run.array(name)[-1] for name in TAKEN if name in run.dataset) for run in runs)
+    assert ours == pytest.approx(theirs, abs=4e-3 * initial)
+    assert max(abs(run.energy_budget()["defect"]) for run in runs) < 1e-6 * initial
 
 
 @pytest.mark.parametrize(

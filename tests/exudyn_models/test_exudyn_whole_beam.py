@@ -59,6 +59,10 @@ def test_steps_that_resolve_a_wave_on_an_element_are_taken_unless_they_would_be_
     assert few.time_step == pytest.approx(1 / 800) and few.relative_step is None
     many = chosen_steps(open_steps, 1.0, UniformMesh(1 / 2000), beam, 0.5)
     assert many.time_step is None and many.relative_step == open_steps.default_step
+    # elements of a longer run are so much longer that it takes no longer: so many times steps, 4e5
+    parts = [(end, ExudynModel().chosen(beam, end)) for end in (0.02, 0.2)]
+    work = [(one.mesh.nodes(1.0).size - 1) * end / one.integrator.time_step for end, one in parts]
+    assert work == pytest.approx([4e5, 4e5], rel=0.03)
 
 
 @pytest.mark.verify
