@@ -134,7 +134,13 @@ def test_steps_grow_in_flight_and_keep_the_energy_and_the_impulse():
 
 
 def test_steps_that_are_stated_are_refined_at_the_wall_and_in_flight():
-    assert Trapezoidal(time_step=2.0, flight_step=4.0).refined(2.0) == Trapezoidal(time_step=1.0, flight_step=2.0)
+    stated, fine = Trapezoidal(time_step=2.0, flight_step=4.0), Trapezoidal(time_step=1.0, flight_step=2.0)
+    assert stated.refined(2.0) == fine
+    beam, meant = Impact.whole_beam(2.0), ExudynModel(mesh=UniformMesh(0.05), integrator=fine)
+    asked = ExudynModel(mesh=UniformMesh(0.1), integrator=stated, refine=2.0)
+    for one, other in ((asked, meant), (asked.for_whole_beam(beam), meant.for_whole_beam(beam))):
+        found, wanted = (method.chosen(beam, 10.0) for method in (one, other))
+        assert (found.mesh, found.integrator) == (wanted.mesh, wanted.integrator)
 
 
 def test_an_ensemble_has_penalties_from_a_quarter_of_the_usual_on_and_coarser_elements():
@@ -144,6 +150,15 @@ def test_an_ensemble_has_penalties_from_a_quarter_of_the_usual_on_and_coarser_el
     assert 0.25 <= min(shares) < 0.5 < max(shares) <= 1.0
     usual = ExudynModel().for_whole_beam(impact).mesh.element_length
     assert all(usual < one.mesh.element_length < 3.0 * usual for one in drawn)
+
+
+@pytest.mark.parametrize("form", ["", "relative_"])
+def test_the_penalty_that_stands_beside_for_error_bars_is_softer_as_its_steps_are_longer(form):
+    """kh² and dh stay what they are."""
+    law, softer = (Penalty(**{f"{form}stiffness": k, f"{form}damping": d}) for k, d in ((8.0, 2.0), (2.0, 1.0)))
+    beam, method = Impact.whole_beam(0.5), ExudynModel(contact=law)
+    (other,) = method.cross_checks(beam).values()
+    assert other.integrator == method.for_whole_beam(beam).integrator.refined(0.5) and other.contact == softer
 
 
 class Hurried(Penalty):
