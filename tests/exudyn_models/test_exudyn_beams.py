@@ -155,3 +155,19 @@ def test_what_plain_exudyn_reads_at_the_end_is_what_simulate_reads(impact, end, 
         assert read["impulse"][-1, 0] == pytest.approx(history.array("total_impulse")[-1], rel=2e-3)
     if "peak_force" in history:
         assert read["force"].max() == pytest.approx(history.array("peak_force")[-1], rel=5e-3)
+
+
+@pytest.mark.parametrize("full", [False, True])
+def test_what_a_run_under_way_is_asked_for_is_what_its_record_says(full):
+    told = []
+
+    def until(run, t, q, v):
+        told.append(run.whole_beam(q, v))
+
+    history = simulate(BOW, end_time=0.1, save=3, mesh=UniformMesh(0.12), full_beam=full, until=until)
+    energy = history.array("kinetic_energy") + history.array("strain_energy")
+    for k, (x, gap, velocity, whole) in enumerate(told, 1):
+        record = history.positions(k), history.array("gap", k), history.array("velocity", k)
+        assert_allclose((x, gap, velocity), record, rtol=1e-12, atol=1e-12)
+        assert whole == pytest.approx(energy[k], rel=1e-12)
+    assert len(told) == 3

@@ -8,8 +8,8 @@ import pytest
 from markdown_tables import lines_after, stated
 from numpy.testing import assert_allclose
 
-from bent_beam import Impact
-from bent_beam.free_flight import acting
+from bent_beam import Impact, ImpactHistory
+from bent_beam.free_flight import acting, is_over
 from bent_beam.meshes import UniformMesh
 from exudyn_models import ExudynModel
 from exudyn_models.contacts import Penalty, SegmentFriction, penalty
@@ -46,6 +46,7 @@ def test_a_bounce_ends_when_the_beam_cannot_come_back_and_keeps_its_energy_accou
     assert 0.0 < history.seconds < time.perf_counter() - began  # what Exudyn took of it
     assert restitution(history) == pytest.approx(0.5663, abs=2e-3)
     assert history.array("gap")[-1].min() > 0.0
+    assert is_over(history) and not is_over(ImpactHistory.of(history.dataset.isel(time=slice(None, -2))))
     assert history.energy_budget()["loss_viscous"] == 0.0 and history.energy_budget()["loss_material"] > 0.4
     closes(history, 1e-7)
     scale = history.settings["amplitude"] / history.settings["amplitude_of_the_real_beam"]
@@ -159,6 +160,13 @@ def test_the_penalty_that_stands_beside_for_error_bars_is_softer_as_its_steps_ar
     beam, method = Impact.whole_beam(0.5), ExudynModel(contact=law)
     (other,) = method.cross_checks(beam).values()
     assert other.integrator == method.for_whole_beam(beam).integrator.refined(0.5) and other.contact == softer
+
+
+def test_where_a_zone_spreads_the_penalty_is_softer_as_the_steps_are_longer_for_an_element() -> None:
+    point, zone = (ExudynModel().for_whole_beam(Impact.whole_beam(kappa)) for kappa in (2.0, 0.5))
+    steps = [one.integrator.time_step / one.mesh.element_length**2 for one in (point, zone)]
+    assert steps == pytest.approx([0.5, 2.0**0.5])
+    assert zone.contact.relative_stiffness == pytest.approx(penalty.STIFFNESS * (steps[0] / steps[1]) ** 2)
 
 
 class Hurried(Penalty):
