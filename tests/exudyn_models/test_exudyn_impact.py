@@ -65,6 +65,15 @@ def test_a_run_that_is_twice_as_fine_has_half_the_steps_and_elements_and_one_tha
     assert second == pytest.approx(0.5 * first, rel=0.02)
 
 
+@pytest.mark.parametrize(("explicit", "zone", "ahead"), [(False, 40.0, 10.0), (True, 2.5, 3.0)])
+@pytest.mark.parametrize("kappa_over_nu", [0.1, 0.2, 0.5, 0.8, 0.93])
+def test_elements_that_are_chosen_resolve_the_zone_and_the_bending_ahead_of_it(kappa_over_nu, explicit, zone, ahead):
+    places = np.array(exudyn_models.chosen_mesh(Impact.dimensionless(kappa_over_nu), 0.4, explicit=explicit).places)
+    front, lengths = float(contact_parameters(kappa_over_nu).lambda0) * math.sqrt(0.4), np.diff(places)
+    assert front > zone * lengths[0] and places.size < 600
+    assert math.sqrt(2.0 * kappa_over_nu * 0.4) > ahead * lengths[np.searchsorted(places, front)]
+
+
 @verify
 def test_hits_of_a_damped_thin_front_take_no_impulse():
     """7 % were missing with the damping of hits that an undamped front needs. The Hermite path's, converged: 0.917."""
