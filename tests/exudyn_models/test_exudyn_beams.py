@@ -49,6 +49,7 @@ def followed(impact, end, method):
         (SOFT.replace(wall_from=-0.4, wall_to=0.3), 0.1, 0.03, {}),
         (SOFT.replace(curvature=0.3, left_end="hinged", right_end="clamped"), 0.1, 0.03, {}),
         (SOFT.replace(shear_stiffness=150.0, rotary_inertia=5e-3), 0.1, 0.02, {}),
+        (SOFT.replace(axial_force=-2.5, tension_direction="tangent", curvature=1.0), 0.1, 0.03, {}),
         (SHEARED.replace(curvature=0.0, left_end="hinged", **STOP), 0.1, 0.02, {}),
     ],
 )

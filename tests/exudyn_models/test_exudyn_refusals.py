@@ -51,6 +51,7 @@ REFUSED = [
     (lambda: run(SHORT.replace(axial_force=1.0), contact=SegmentFriction()), "axial force does not act .*got .* 1.0"),
     (lambda: run(save=0), "save"),
     (lambda: run(mesh=NODES, end_time=5.0), r"mesh.places .* 4.0 .*got 2.0"),
+    (lambda: run(mesh=NodesMesh((0.0, 2.0, 5.0))), r"end at the half length 4.0 \(got 5.0\)"),
     (lambda: run(mesh=UniformMesh(1.9e-5)), "200000 are the most"),
     (lambda: run(Impact.dimensionless(0.5, length=100.0), geometry=TrueGeometry()), "right angle"),
     # settings
