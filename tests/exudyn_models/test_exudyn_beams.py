@@ -67,6 +67,7 @@ def test_both_paths_say_the_same_of_a_beam_of_which_nothing_is_one(impact, end, 
     runs, initial = (exudyn, hermite), hermite.energy_budget()["initial_energy"]
     ours, theirs = (sum(run.array(name)[-1] for name in TAKEN if name in run.dataset) for run in runs)
     assert ours == pytest.approx(theirs, abs=4e-3 * initial)
+    assert exudyn.settings["ends"] == "free"
     assert max(abs(run.energy_budget()["defect"]) for run in runs) < 1e-6 * initial
 
 
@@ -126,6 +127,7 @@ def test_without_contact_y0_is_the_motion(element, psi, chi, tension, more):
     assert_allclose(history.array("angle" if more else "slope")[-1], slope, atol=1e-3)
     budget = history.energy_budget()
     assert abs(budget["defect"]) < 1e-6 * budget["initial_energy"]
+    assert (history.settings["ends"] == "free") is (psi == 0.0)
     said = [float(re.findall(r"[\d.]+", warning)[0]) for warning in history.warnings]
     assert said == pytest.approx([110.0, 8.0**0.5], abs=0.02)  # depth, % of V₀t; half length, Λ
 
