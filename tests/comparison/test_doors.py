@@ -22,7 +22,8 @@ from bent_beam.meshes import UniformMesh
 from bent_beam.versions import versions
 from comparison import bounce, match, predict
 from comparison.bounced import scales
-from comparison.compare import compare_histories, rerun_history
+from comparison.bouncing import case_of
+from comparison.compare import compare_histories, comparison_text, rerun_history, rerun_text
 from comparison.doors import Swept
 from comparison.predicting import predict_case
 from comparison.readable import milliseconds, unit_for
@@ -121,9 +122,9 @@ def apart(one: ImpactHistory, other: ImpactHistory, name: str = "gap") -> float 
 def test_gaps_are_compared_wherever_both_runs_have_the_beam_at_the_end_of_their_common_time() -> None:
     """They differ by 0.3 V₀t at one place, being linear between nodes and between saved instants."""
     time, coarse, fine = np.linspace(0.0, 2.0, 3), np.linspace(0.0, 1.0, 6), np.linspace(0.0, 1.0, 11)
-    at = partial(history_of, impact=Impact.whole_beam(0.5))
+    at = partial(history_of, impact=Impact.whole_beam(0.5).replace(velocity=2.0))
     for place in (0.0, 0.4, 1.0):
-        one = at(time, coarse, gap=np.outer(time, np.where(coarse == place, 0.3, 0.0)))
+        one = at(time, coarse, gap=np.outer(time, np.where(coarse == place, 0.6, 0.0)))
         assert apart(one, at(time, fine)) == pytest.approx(0.3)
     runs = [at(times, fine, gap=np.outer(times, 1.0 + fine)) for times in ([0.0, 0.7, 1.0], [0.0, 0.4, 1.2, 1.6])]
     assert apart(*runs) == pytest.approx(0.0, abs=1e-12)
@@ -166,12 +167,34 @@ def test_times_and_places_that_have_moved_are_a_difference_of_a_run_that_is_repe
     before = json.dumps(versions() | {"numpy": "1.0"})
     found = rerun_history(ImpactHistory.of(dataset.assign_attrs(versions=before)))
     assert found["versions_changed"] == {"numpy": ["1.0", versions()["numpy"]]}
+    said = " ".join(rerun_text(found).split())
+    assert "same, bit for bit" in said and f"numpy 1.0 {versions()['numpy']}" in said
     for moved in ("time", "x", "contact_x"):
         found = rerun_history(ImpactHistory.of(dataset.assign_coords({moved: 1.5 * dataset[moved]})))
         assert not found["identical"] and found["largest_difference"] == {moved: pytest.approx(1.0 / 3.0)}
+        assert "run differs" in rerun_text(found) and rerun_text(found).split()[-2:] == [moved, "0.33"]
+    found = rerun_history(ImpactHistory.of(dataset.isel(time=[0, 3, -1])))  # fewer than its settings say
+    assert set(found["largest_difference"]) == {name for name, one in dataset.variables.items() if "time" in one.dims}
+    assert set(found["largest_difference"].values()) == {None}
+    assert "gap missing, or of another size" in " ".join(rerun_text(found).split())
     found = rerun_history(ImpactHistory.of(dataset.assign(gap=np.nextafter(dataset["gap"], 1.0))))  # by its last bit
     assert not found["identical"] and 0.0 < found["largest_difference"].pop("gap") < 1e-15
     assert not found["largest_difference"]
+
+
+def test_what_differs_far_down_or_late_is_told_by_its_full_name_from_where_it_differs() -> None:
+    """Texts are shortened: two that begin alike, or end alike too, would look the same."""
+    at, half = list(range(20)), 90 * "a"
+    meshes = [{"mesh": {"at": nodes}, "save": at[:n]} for nodes, n in ((at, 10), ([*at[:9], 9.5, *at[10:]], 12))]
+    pairs = {"far": meshes, "named": [f"{half}one{half}", f"{half}two{half}"], "hold": [None, 2]}
+    slow = Impact.dimensionless(0.5)
+    one, other = (history_of([0.0, 1.0], at, impact=slow.replace(velocity=speed)) for speed in (1.0, 2.0))
+    said = " ".join(comparison_text(compare_histories(one, other) | {"settings": pairs}, "A", "B").split())
+    for part in ("far.mesh.at[9:] [9, 10, 11, 12, ...] [9.5, 10, 11, 12, ...]", "far.save[10:] [] [10, 11]", "hold - 2",
+                 "named[90:] one", "velocity 1.0 2.0", "two impacts differ."):  # fmt: skip
+        assert part in said
+    said = comparison_text(compare_histories(one, one), "A", "B")
+    assert "two impacts are the same." in said and "what differs" not in said
 
 
 @pytest.mark.verify
@@ -192,6 +215,13 @@ def test_a_wall_that_gives_way_and_is_not_yet_touched_has_no_place_of_its_force(
     said = run_text(document | hit | {"time": 0.02})
     assert "moment, until 20 ms" in said and "on the opposite wall, at 12.5 ms and 0.25 m" in said
     assert re.search(r"lost to steps and mesh +3\.1 +% of", said)
+
+
+def test_waves_that_are_back_from_the_ends_are_told_from_a_hundredth_of_t_star_on() -> None:
+    case = replace(case_of(Impact.whole_beam(2.0, relative_damping=1e-3)), mesh=UniformMesh(0.05))
+    runs = (simulate_case(case, "hermite", until=time, error_bars="drift", save=20) for time in (9e-3, 11e-3))
+    told = [[line for line in run.to_dict()["warnings"] if "reflected" in line] for run in runs]
+    assert told == [[], ["waves reflected at the beam's ends are back from 0.01 s on"]]
 
 
 def test_a_case_may_be_asked_by_its_tables_and_answers_be_written_to_a_folder_by_name(tmp_path: Path) -> None:
