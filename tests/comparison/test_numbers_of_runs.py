@@ -46,7 +46,10 @@ def test_late_and_without_damping_a_number_is_a_mean_with_two_standard_deviation
     assert (damped.value, damped.bar) == pytest.approx((1.0, FACTOR * (1.0 + 2.0)))
 
 
-@pytest.mark.parametrize(("damping", "until", "least"), [(1e-3, None, 1e-4), (2e-4, None, 1e-3), (2e-4, EARLY, 1e-4)])
+@pytest.mark.parametrize(
+    ("damping", "until", "least"),
+    [(1e-3, None, 1e-4), (2e-4, None, 1e-3), (3.1e-4, 0.051, 1e-4), (2.9e-4, 0.051, 1e-3), (2.9e-4, 0.049, 1e-4)],
+)
 def test_companions_that_agree_better_than_whole_beams_can_leave_a_ten_thousandth(damping, until, least) -> None:
     """A thousandth where short waves live long, once they have run along the beam."""
     made = runs({"impulse": 5.0}, {"impulse": 5.0 + 1e-9}, damping=damping, until=until)
@@ -59,18 +62,18 @@ def test_companions_that_agree_better_than_whole_beams_can_leave_a_ten_thousandt
 
 
 def test_curves_that_cross_at_the_time_asked_do_not_agree() -> None:
-    """Nor do forces before a wall that gives way: their means over halves of the window, 0.2 long, differ by ±0.04/0.1,
+    """Nor do forces before a wall that gives way: their means over halves of the window, 0.4 long, differ by ±0.04/0.2,
     over all of it not at all."""
     crossing = TIME | {"impulse_around": [0.92, 1.0, 1.08]}
     assert instant_numbers(runs(TIME, TIME))["impulse"].bar == 0.0
     assert instant_numbers(runs(TIME, crossing))["impulse"].bar == pytest.approx(FACTOR * 0.02)
     above = TIME | {"impulse": 1.02, "impulse_around": [0.92, 1.02, 1.12]}
     assert instant_numbers(runs(TIME, above))["impulse"].bar == pytest.approx(FACTOR * 0.02)  # it counts once
-    rigid = runs(TIME, TIME | {"impulse_around": [0.9, 1.04, 1.1]}, until=1.0)
+    rigid = runs(TIME, TIME | {"impulse_around": [0.9, 1.04, 1.1]}, until=2.0)
     soft = dataclasses.replace(rigid.question, impact=rigid.question.impact.replace(wall_stiffness=1e4))
     assert instant_numbers(rigid)["reaction"].bar == 0.0
     found = instant_numbers(dataclasses.replace(rigid, question=soft))["reaction"]
-    assert found.bar == pytest.approx(FACTOR * 0.04 / 0.2)
+    assert found.bar == pytest.approx(FACTOR * 0.04 / 0.4)
 
 
 def test_a_half_length_that_a_companion_does_not_have_is_as_unsure_as_it_is_long() -> None:
@@ -85,10 +88,15 @@ def test_what_a_run_and_its_companion_share_stays_in_the_bar() -> None:
     early = instant_numbers(runs(TIME, TIME, until=EARLY))
     assert early["impulse"].bar == early["peak_moment"].bar == pytest.approx(2e-3)
     assert instant_numbers(runs(TIME, TIME))["peak_moment"].bar == 0.0
+    thrown = runs(TIME | {"lift": 0.05}, TIME, until=EARLY, damping=0.0)
+    for change, rightly in (({}, False), ({"acceleration": -1.0}, True), ({"wall_stiffness": 1e3}, True)):
+        question = dataclasses.replace(thrown.question, impact=thrown.question.impact.replace(**change))
+        lifted = instant_numbers(dataclasses.replace(thrown, question=question))["impulse"]
+        assert (lifted.parts["lift"] == 0.0) is rightly, "a load or a wall that gives way may lift the zone"
     three = TIME | {name: 3.0 for name in OF_INSTANT}  # they are shares of the number
     light, early = (instant_numbers(runs(three, three, damping=2e-4, until=until)) for until in (LATE, EARLY))
     assert light["peak_moment"].bar == pytest.approx(3e-2) and early["impulse"].parts["grid_viscosity"] == 6e-3
-    point = dataclasses.replace(runs(TIME, TIME), question=Question(problem(2.0, 2e-4), COARSE, LATE))
+    point = dataclasses.replace(runs(TIME, TIME), question=Question(problem(1.01, 2e-4), COARSE, LATE))
     assert instant_numbers(point)["peak_moment"].bar == 0.0, "single nodes chatter on a zone alone"
     assert instant_numbers(runs(TIME, TIME, damping=2e-4))["peak_moment"].bar == pytest.approx(1e-2)
     assert instant_numbers(runs(TIME, TIME, TIME, damping=0.0))["peak_moment"].bar == pytest.approx(1e-2)
@@ -145,6 +153,10 @@ def test_a_single_run_that_ends_at_the_wall_is_told_with_the_numbers_that_it_ent
     assert any(f"flights shorter than {1e3 / first_mode(slow):.3g} ms" in warning for warning in held.warnings)
     gone = ("restitution", "impulse", "last_contact")  # of the hit, which is not over
     assert [found.numbers[name].value for name in gone] == [None] * 3 and found.numbers["push"] != Number()
+    for periods, none in ((1.1, False), (0.9, True)):  # in the last period of the lowest mode it may still rise
+        late = {"peak_moment_time": 9.0 - periods / first_mode(problem(2.0, 1e-3))}
+        still = whole_numbers(made.part(lambda one, late=late: one | {"until": 9.0} | late))  # type: ignore[misc]
+        assert (still["peak_moment"] == Number()) is none
 
 
 def test_a_beam_that_leaves_slowly_may_touch_again_where_twice_the_bar_of_its_velocity_brings_it_to_the_wall() -> None:
@@ -242,8 +254,12 @@ def test_few_saved_instants_hold_the_time_that_is_asked_for() -> None:
 
 
 def test_the_companion_that_absorbs_no_waves_has_ten_elements_in_the_root_of_time() -> None:
+    """It is run of hardly any damping, η < 3e-5 T*, from 1e-5 T* on, and until waves have run: 3e-3 T*."""
     _, other = Question(problem(0.5, 0.0), HermiteFE(), 1e-4).companions()["waves_absorbed"]
     assert other.mesh.element_length == pytest.approx(0.1 * 1e-4**0.5)
+    asked = ((2.9e-5, 1.1e-5), (2.9e-5, 2.9e-3), (3.1e-5, 1e-4), (2.9e-5, 0.9e-5), (2.9e-5, 3.1e-3))
+    found = [Question(problem(0.5, damping), HermiteFE(), until).companions() for damping, until in asked]
+    assert ["waves_absorbed" in one for one in found] == [True, True, False, False, False]
 
 
 def test_the_companion_of_nodes_that_rebound_has_nodes_that_do_not() -> None:
