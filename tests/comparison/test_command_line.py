@@ -57,9 +57,14 @@ def test_both_paths_say_what_theory_says_and_their_stored_runs_are_drawn_and_com
 
 def test_a_match_whose_rows_are_all_refused_is_bad_input_and_still_a_document(capsys):
     pair = ["--set", "exudyn.contact.kind=rigid", "--set", "exudyn.integrator.spectral_radius=.9"]
-    assert run(["match", "--path", "exudyn", *pair, "--kappa-over-nu", "0.5", "--json"]) == 2
+    asked = ["match", "--path", "exudyn", *pair, "--kappa-over-nu", "0.5", "--json", "--first-order", "free,1,2,3"]
+    assert run([*asked, "--wall", "1e5"]) == 2
+    assert json.loads(capsys.readouterr().out)["rows"][0]["wall"] == [1e5, 0.0]
+    assert run([*asked, "--refine", "2"]) == 2
     printed = capsys.readouterr()
-    assert "needs exudyn.integrator.kind newmark" in json.loads(printed.out)["rows"][0]["reason"]
+    (row,) = json.loads(printed.out)["rows"]
+    assert "needs exudyn.integrator.kind newmark" in row["reason"]
+    assert [row[name] for name in ("alpha", "psi", "chi", "axial", "refine")] == [-1.5, 1.0, 2.0, 3.0, 2.0]
     assert "every row was refused: exudyn.contact.kind rigid needs" in printed.err
 
 

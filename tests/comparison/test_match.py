@@ -12,7 +12,7 @@ from here import CASES
 from strangers import Stranger
 
 from bent_beam import ImpactHistory, InputError, load_case
-from bent_beam.measure.numbers import MISSING
+from bent_beam.measure.numbers import MISSING, Number
 from comparison.figures.matching import leading_figure, write_match
 from comparison.matching import PERTURBATION, answer, match
 from comparison.methods import methods_from_file
@@ -56,10 +56,17 @@ def test_every_path_matches_the_leading_order(method, kappa, of_lambda0, of_r0):
     ("method", "of_r0"),
     [(SelfSimilarFE(refine=0.5), 1e-4), pytest.param(ExudynModel(), 1e-3, marks=pytest.mark.verify)],
 )
-def test_a_point_contact_does_not_spread(method, of_r0):
-    """κ/ν ≥ 1: λ₀ = 0, r₀ = ν, r₁ = 2α; the largest load changes V₀t by the method's perturbation, ε α τ/2."""
+def test_a_point_contact_does_not_spread(method, of_r0, tmp_path):
+    """κ/ν ≥ 1: λ₀ = 0, r₀ = ν, r₁ = 2α; the largest load changes V₀t by the method's perturbation, ε α τ/2. Its time
+    and steps are those of all its runs, and what is out of balance is the largest of them."""
     question = MatchQuestion(method, 1.25, (1.0, 0.0, 0.0), error_bars="drift")
-    row = answer(question, KEEP)
+    row = answer(question, RunStore(tmp_path))
+    runs = [json.loads(file.read_text())["answer"] for file in tmp_path.iterdir()]
+    for name in ("seconds", "steps"):
+        assert getattr(row, name) == pytest.approx(sum(run[name] for run in runs))
+    for name in ("pull", "momentum_residual", "gap_of_push"):
+        known = [run["reading"][name] for run in runs if run["reading"][name] is not None]
+        assert getattr(row, name) == max(known, default=None)
     assert 0.5 * row.epsilons[-1] * question.duration == pytest.approx(getattr(method, "perturbation", PERTURBATION))
     assert row.regime == "discrete" and row.lambda0.value == 0.0
     assert off(row.r0) < of_r0 and off(row.r1) < 5e-3
@@ -236,6 +243,21 @@ def test_a_bow_free_of_stress_is_let_go_by_a_tension_as_it_flies() -> None:
     assert slack.first == (0.0, 1.0, 0.0, 0.0) and str(slack.first[0]) == "0.0", "no force, no acceleration"
     alone, *others = (lost_row(question, "not asked").of_tension_alone for question in (pulled, told, slack))
     assert alone and not any(others)
+
+
+def test_a_row_of_first_order_is_told_with_its_loads_and_refinement_against_theory_or_one() -> None:
+    """λ₁ = 1 beside 0.5 is off by half of 1, r₁ = 3 beside 4 by a quarter of 4."""
+    question = MatchQuestion(SelfSimilarFE(label="mine"), 0.5, (4.0, -1.0, 0.5, 0.2), refine=2.0)
+    loaded = question.loaded(0.01)
+    groups = (loaded.epsilon_alpha, loaded.epsilon_psi, loaded.epsilon_chi, loaded.epsilon_axial)
+    assert groups == pytest.approx([0.01 * load for load in question.first])
+    numbers = {"lambda1": Number(1.0, 0.2, theory=0.5), "r1": Number(3.0, 0.2, theory=4.0)}
+    text = match_table([replace(lost_row(question, ""), reason=None, warnings=["wide"], **numbers)])
+    head, _, line, *_ = (re.split(r"\s{2,}", row.strip()) for row in text.splitlines())
+    assert [line[head.index(name)] for name in ("refine", "alpha,psi,chi,N")] == ["2", "4,-1,0.5,0.2"]
+    at = head.index("lambda1"), head.index("r1")
+    assert [line[i : i + 2] for i in at] == [["1.0 ± 0.2", "+50.000"], ["3.0 ± 0.2", "-25.000"]]
+    assert "warning: mine, kappa/nu = 0.5, (alpha, psi, chi, N) = (4, -1, 0.5, 0.2), refined 2 times: wide" in text
 
 
 def test_the_default_rows_are_the_cases_of_the_thesis_that_touch_with_a_zone() -> None:
