@@ -97,10 +97,17 @@ def test_a_rod_under_its_weight_leaves_with_what_is_known_of_it(tmp_path: Path) 
     assert "From 1 ms on it has no reaction" in prediction_text(document | spoiled)
     assert "coefficient of restitution 0.63" in text and "rigid wall has no largest force" in text
     wall = {"peak_force": 47.2, "peak_force_time": 1e-3, "half_contact_length": 0.1, "pressure": 900.0}
-    force = {"peak_force": {"value": 47.2, "error": 0.2}, "peak_force_time": 1e-3, "peak_force_place": 0.0}
+    force = {"peak_force": {"value": 47.2, "error": 0.2}, "peak_force_time": 1e-3, "peak_force_place": 0.25}
     document |= {"wall": wall | {"penetration": None, "spoiled_by": None}}
     text = prediction_text(document | {"whole_impact": document["whole_impact"] | force})
     assert "beam): 47.2 N at" in text and "pressure 0.9 kN/m" in text and "impact: 47.2 ± 0.2 N." in text
+    assert "acts at about 1 ms, on average about 0.25 m" in text
+    push = {"push": {"value": 0.5, "error": 0.2}, "push_window": 2e-3, "push_time": 3e-3}
+    over = {"over_damping": [{"damping_ratio": 0.02, "peak_stress": largest}]}
+    whole = document["whole_impact"] | push | over | {"peak_force": None, "peak_force_time": None}
+    text = prediction_text(document | {"whole_impact": whole, "agreement": {"from": 2e-3, "until": 2e-3}})
+    assert "agree at 2 ms alone" in text and "within 2 ms: 0.5 ± 0.2 N s." in text and "begins at 3 ms" in text
+    assert f"ratio of the material: {number_from(largest).scaled(1e-6)} at 2 %" in text
 
 
 def test_a_damping_that_is_not_stated_is_answered_over_three_and_one_that_is_stated_once(tmp_path: Path) -> None:
@@ -112,7 +119,7 @@ def test_a_damping_that_is_not_stated_is_answered_over_three_and_one_that_is_sta
     rows = found["over_damping"]
     assert [row["damping_ratio"] for row in rows] == [0.0002, 0.002, 0.02]
     assert found["peak_stress"]["value"] == max(row["peak_stress"]["value"] for row in rows)
-    assert any("no damping is stated" in warning for warning in found["warnings"])
+    assert any("no damping is stated" in line and "0.02, 0.2, 2 % of the" in line for line in found["warnings"])
     stated = answered(*asked, "--set", "beam.damping_ratio=0.002")
     assert stated["over_damping"] is None and stated["restitution"] == rows[1]["restitution"]
 
@@ -204,10 +211,10 @@ def test_a_warning_of_one_of_several_runs_says_of_which() -> None:
 
 
 def test_the_round_off_of_an_impulse_is_no_force_that_companions_disagree_about() -> None:
-    for more, bar in ((2.0**-50, 0.0), (1e-3, FACTOR * 1e-3 / 0.2)):
+    for more, bar in ((2.0**-50, 0.0), (1e-3, FACTOR * 1e-3 / 0.4)):
         readings = ({"impulse": 1.0, "impulse_around": [1.0, 1.0 + one, 1.0]} for one in (0.0, more))
         run, other = (SimpleNamespace(reading=reading) for reading in readings)
-        runs: Any = SimpleNamespace(run=run, companions={"x": other}, question=SimpleNamespace(until=1.0))
+        runs: Any = SimpleNamespace(run=run, companions={"x": other}, question=SimpleNamespace(until=2.0))
         assert predicting._crossings_of_force(runs) == pytest.approx(bar, rel=1e-9, abs=0.0)
 
 

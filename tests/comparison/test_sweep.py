@@ -2,13 +2,15 @@
 
 import json
 
+import numpy as np
 import pytest
 import xarray
 from called import answered, command
 from histories import rod
 
+from bent_beam.measure.numbers import Band, Number
 from comparison import sweep
-from comparison.sweeping import NAMES, varied_from
+from comparison.sweeping import NAMES, Row, SweepTable, varied_from
 from hermite_fe import HermiteFE
 
 
@@ -66,6 +68,29 @@ def test_between_two_walls_a_row_is_what_predict_would_say_at_the_end_time(case)
     assert (row["peak_moment"]["value"], row["peak_moment"]["error"]) == (run["peak_moment"], run["peak_moment_error"])
     said = command("sweep", case, "--jobs", 1, "--vary", "impact.velocity=1", *words)[1]
     assert "numbers until the case's end time, 2 ms." in said
+
+
+def test_a_table_says_a_sentence_once_with_its_rows_and_a_grid_is_in_si():
+    known = {"last_contact": Number(0.02, 0.001), "peak_force": Band(2e3, 1e2, 24), "restitution": Number(0.5, 0.2)}
+    rows = [
+        Row({"impact.velocity": speed}, None, None, numbers, until, ["all", *told], why, False, kept)
+        for speed, numbers, until, told, why, kept in (
+            (1.0, known, 2e-3, ["one"], None, True), (2.0, known, 4e-3, ["two"], None, True),
+            (3.0, {}, None, ["two"], "stopped", False),
+        )
+    ]  # fmt: skip
+    table = SweepTable("", "hermite", {"impact.velocity": [1.0, 2.0, 3.0]}, rows)
+    lines, speed = str(table).splitlines(), "impact.velocity = "
+    assert {"warning: all (all rows)", f"warning: one ({speed}1)", f"no numbers: stopped ({speed}3)",
+            f"warning: two (2 rows, the first at {speed}2)"} <= {*lines}  # fmt: skip
+    assert "2 of 3 rows came from the store" in str(table) and "a band is mean" in str(table)
+    assert "end time, 2 ms to 4 ms." in str(table) and "largest force, kN" in lines[0]
+    assert "2.00 ± 0.10 (band of 24 runs)" in lines[2] and "20.0 ± 1.0" in lines[2]
+    grid = table.to_dataset()
+    for name, (value, unit) in {"last_contact": (0.02, "s"), "last_contact_error": (0.001, "s"),
+                                "peak_force_std": (1e2, "N"), "restitution": (0.5, "1")}.items():  # fmt: skip
+        assert grid[name].attrs["units"] == unit
+        assert grid[name].values == pytest.approx([value, value, np.nan], nan_ok=True)
 
 
 def test_values_are_those_that_one_would_type():
