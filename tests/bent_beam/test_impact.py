@@ -22,8 +22,9 @@ def test_groups_of_the_thesis_cases():
     assert not any(getattr(impact, name) for name in loads_of(Impact))  # none that nobody stated
     curved = Impact(**THESIS | {"curvature": 12.0}, wall_curvature=2.0)  # it is bent less against such a wall
     assert (curved.relative_curvature, curved.kappa_over_nu) == pytest.approx((10.0, 0.5))
-    impact = Impact(1.0, 1.0, 2.0, 0.35, 3.5, acceleration=700.0)
+    impact = Impact(1.0, 1.0, 2.0, 0.35, 3.5, acceleration=700.0, curvature_rate=70.0, fourth_derivative=7.0)
     assert impact.epsilon_alpha == pytest.approx(700 / 3.5**3)  # 16.33 in docs/theory.md, section 1
+    assert (impact.epsilon_chi, impact.epsilon_psi) == pytest.approx((70 / 3.5**3, 7 / 3.5**3))  # l* = 1/V₀, t* = 1/V₀²
     assert impact.alpha == pytest.approx(impact.epsilon_alpha / impact.epsilon)
     assert Impact(3.0, 2.0, 2.0, 0.35, 3.5, axial_force=49.0).group("axial_force") == pytest.approx(2.0)  # N/(μV₀²)
 

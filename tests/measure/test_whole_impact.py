@@ -244,6 +244,9 @@ def test_a_beam_that_turns_comes_back_with_the_end_that_turns_to_the_wall_faster
         energy = 0.5 * 2.0 * (up**2 + turns**2 / 3.0)
         assert cannot_return(impact, x, bow + 0.2 + 0.1 * x, -up - turns * x, energy) != back
     energy = 0.5 * 2.0 * (up**2 + spin**2 / 3.0)
+    for share in (0.99, 1.01):  # 0.1 J beyond that of its flight and turning bend its ends by √(2·0.1·L³/105)
+        reach = share * math.sqrt(0.2 * 8.0 / 105.0)
+        assert cannot_return(impact, x, bow + reach, -up - spin * x, energy + 0.1) == (share > 1.0)
     for tilt, back in ((0.88, False), (0.9, True)):  # a tilted bow of this height is at the wall from √0.8 on
         assert cannot_return(impact, x, bow + 0.2 + tilt * x, -up - spin * x, energy) != back
 
