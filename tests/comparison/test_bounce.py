@@ -18,7 +18,7 @@ from bent_beam.history import ImpactHistory
 from bent_beam.measure.numbers import Band
 from bent_beam.measure.whole_impact import whole_impact
 from bent_beam.meshes import UniformMesh
-from bent_beam.method import simulate_to_separation, time_on_wall
+from bent_beam.method import separation_times, simulate_to_separation, time_on_wall
 from comparison.bouncing import bounce, case_of, follow_hits, problem
 from comparison.questions import Question
 from comparison.store import RunStore
@@ -259,6 +259,8 @@ def test_a_softer_wall_pushes_for_half_a_period_however_long_and_a_force_that_st
     assert not softer.numbers["peak_force"].measured and not softer.numbers["restitution"].measured
     assert any("no largest force on the wall: it still rises" in warning for warning in softer.warnings)
     assert softer.to_dict()["peak_force_time"] is None
+    ends = [separation_times(impact)[-1] for impact in (bar, soft.impact, softer.impact)]
+    assert ends == pytest.approx([8.0, 3.0 * math.pi / math.sqrt(0.05), 100.0], abs=6e-3), "it is given up then"
 
 
 def test_bounce_with_a_store_that_keeps_nothing_runs_as_often_as_without_one(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -182,6 +182,7 @@ def test_bars_wider_than_2_percent_of_leading_and_10_of_first_order_are_a_warnin
     told = " ".join(warning for warning in row.warnings if warning.startswith("wide error bar"))
     assert [symbol for symbol in ("λ₀", "r₀", "λ₁", "r₁") if f"{symbol} = " in told] == said.split()
     assert ("λ₀" in said) == (row.r0.bar > 0.02 * row.r0.value) and ("r₁" in said) == (row.r1.bar > 0.1 * row.r1.value)
+    assert max(off(row.lambda1, 1.0), off(row.r1, 1.0)) < 0.01  # what the zone bears of its load is none of its rim's
 
 
 def test_a_wall_that_gives_way_has_its_largest_force_in_the_row_and_says_from_when_on_it_is_as_a_rigid_one():
