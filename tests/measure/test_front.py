@@ -68,7 +68,7 @@ def test_a_rim_that_jumps_about_an_instant_is_known_to_its_jump_alone() -> None:
     impulse[:, 4], impulse[:, 8] = np.minimum(time, 0.7), np.maximum(time - 0.7, 0.0)
     history = history_of(time, x, impulse=impulse, total_impulse=2.0 * impulse.sum(axis=1))
     assert instant(history, 0.7).element == pytest.approx(0.4)
-    assert [instant(history, time).element for time in (0.5, 0.73, 0.85)] == pytest.approx([0.1] * 3)
+    assert [instant(history, time).element for time in (0.5, 0.68, 0.72, 0.85)] == pytest.approx([0.1] * 4)
 
 
 def test_half_a_contact_is_as_long_as_it_reaches_from_the_first_touch() -> None:
