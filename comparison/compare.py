@@ -129,7 +129,8 @@ def _changed(pairs: dict[str, Any], where: str = "") -> list[list[str]]:
             rows += _changed(_apart(a, b), f"{where}{key}.")
         elif short.repr(a) == short.repr(b) and isinstance(a, (str, list, tuple)):
             at = next((i for i, (x, y) in enumerate(zip(a, b)) if x != y), min(len(a), len(b)))
-            rows += _changed({f"{key}[{at}:]": [a[at:], b[at:]]}, where)
+            rest = {f"{key}[{at}:]": [a[at:], b[at:]]} if at else {f"{key}[0]": [a[0], b[0]]}  # they begin unlike
+            rows += _changed(rest, where)
         else:
             rows.append([f"{where}{key}", *("-" if v is None else short.repr(v).strip("'") for v in (a, b))])
     return rows

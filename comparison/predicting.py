@@ -150,6 +150,7 @@ class PredictedCase:
             "times": rows if self.simulated is None else rows[: len(self.simulated)],
             "model": self.case.impact.model,
             "velocity": self.case.impact.velocity,
+            "damping": self.case.impact.relative_damping,
             "warnings": self.warnings,
             "agreement": self.agreement,
             "yield_stress": getattr(self.case.section, "yield_stress", None),

@@ -186,12 +186,13 @@ def test_what_differs_far_down_or_late_is_told_by_its_full_name_from_where_it_di
     """Texts are shortened: two that begin alike, or end alike too, would look the same."""
     at, half = list(range(20)), 90 * "a"
     meshes = [{"mesh": {"at": nodes}, "save": at[:n]} for nodes, n in ((at, 10), ([*at[:9], 9.5, *at[10:]], 12))]
-    pairs = {"far": meshes, "named": [f"{half}one{half}", f"{half}two{half}"], "hold": [None, 2]}
+    pairs = {"far": meshes, "named": [f"{half}one{half}", f"{half}two{half}"], "hold": [None, 2],
+             "nested": [[[*range(6)], at], [[*range(5), 7], at]]}  # fmt: skip
     slow = Impact.dimensionless(0.5)
     one, other = (history_of([0.0, 1.0], at, impact=slow.replace(velocity=speed)) for speed in (1.0, 2.0))
     said = " ".join(comparison_text(compare_histories(one, other) | {"settings": pairs}, "A", "B").split())
     for part in ("far.mesh.at[9:] [9, 10, 11, 12, ...] [9.5, 10, 11, 12, ...]", "far.save[10:] [] [10, 11]", "hold - 2",
-                 "named[90:] one", "velocity 1.0 2.0", "two impacts differ."):  # fmt: skip
+                 "nested[0][5:] [5] [7]", "named[90:] one", "velocity 1.0 2.0", "two impacts differ."):  # fmt: skip
         assert part in said
     said = comparison_text(compare_histories(one, one), "A", "B")
     assert "two impacts are the same." in said and "what differs" not in said

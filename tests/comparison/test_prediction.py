@@ -218,6 +218,18 @@ def test_the_round_off_of_an_impulse_is_no_force_that_companions_disagree_about(
         assert predicting._crossings_of_force(runs) == pytest.approx(bar, rel=1e-9, abs=0.0)
 
 
+def test_a_half_contact_beyond_two_percent_is_told_of_one_point_that_shears_and_of_a_zone_that_damping_keeps_one() -> (
+    None
+):
+    """Damping keeps a zone one point for as long as the theory holds."""
+    pipe = load_case(PIPE)
+    for damping, shear, told in ((0.0, True, False), (0.02, True, True), (0.02, False, False)):
+        impact = pipe.impact.replace(damping=damping * pipe.impact.slow_time_scale)
+        impact = impact if shear else impact.replace(shear_stiffness=None, rotary_inertia=0.0)
+        said = str(predict_case(replace(pipe, impact=impact), [1e-3], theory_only=True))
+        assert ("half contact is within 2 % only without" in said) == told
+
+
 def test_theory_only_simulates_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("simulate", "simulate_to_separation"):
         monkeypatch.setattr(HermiteFE, name, lambda *_, **__: pytest.fail("it simulates"))

@@ -24,7 +24,8 @@ const Words = (() => {
       + "it has no reaction: waves from the ends swing the force.";
     const acting = { loads: b.acceleration || b.tension, shear: b.shear, "the wall’s give": b.wallStiffness };
     const left = Object.keys(acting).filter((name) => acting[name]).join(" and ");
-    const point = b.shear && regime === "discrete" ? " Its half contact is that without loads and damping." : "";
+    const point = b.shear && (regime === "discrete" || b.damping) // one point, as yet or for good
+      ? " Its half contact is within 2 % only without loads and damping." : "";
     return `The theory holds to 2 % ${start}until ${quantity("time", until, 3)}: then ${WORDS.limits[by]}.`
       + (left && ` Its moment leaves out ${left}.`) + point
       + (forceUntil < until ? ` ${swings}` : "");
