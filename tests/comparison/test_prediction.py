@@ -218,9 +218,7 @@ def test_the_round_off_of_an_impulse_is_no_force_that_companions_disagree_about(
         assert predicting._crossings_of_force(runs) == pytest.approx(bar, rel=1e-9, abs=0.0)
 
 
-def test_a_half_contact_beyond_two_percent_is_told_of_one_point_that_shears_and_of_a_zone_that_damping_keeps_one() -> (
-    None
-):
+def test_a_half_contact_that_shear_and_damping_spoil_is_told_of_a_zone_that_is_one_point_as_yet() -> None:
     """Damping keeps a zone one point for as long as the theory holds."""
     pipe = load_case(PIPE)
     for damping, shear, told in ((0.0, True, False), (0.02, True, True), (0.02, False, False)):

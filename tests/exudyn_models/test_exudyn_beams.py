@@ -122,7 +122,8 @@ def test_without_contact_y0_is_the_motion(element, psi, chi, tension, more):
     x, t = history.array("x") / 0.5, history.time[-1] / 2.0
     y0 = t - 0.25 * x**2 + 0.2 * t**2 + 0.5 * chi * x**2 * t + psi * x**4 / 24
     slope = -0.5 * x + chi * x * t + psi * x**3 / 6.0 + (psi * x / 4.0 if more else 0.0)  # and l_s² y‴
-    assert_allclose(-history.array("gap")[-1] / 0.5, y0, atol=2e-4)
+    exact = psi and element == ANCFCable()  # but for its shape: cubics under a quartic, no axial force
+    assert_allclose(-history.array("gap")[-1] / 0.5, y0, atol=2e-5 if exact else 2e-4)
     assert_allclose(history.array("velocity")[-1] / 0.25, 1.0 + 0.4 * t + 0.5 * chi * x**2, atol=1e-3)
     assert_allclose(history.array("angle" if more else "slope")[-1], slope, atol=1e-3)
     budget = history.energy_budget()

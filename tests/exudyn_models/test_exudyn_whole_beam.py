@@ -169,6 +169,30 @@ def test_where_a_zone_spreads_the_penalty_is_softer_as_the_steps_are_longer_for_
     assert zone.contact.relative_stiffness == pytest.approx(penalty.STIFFNESS * (steps[0] / steps[1]) ** 2)
 
 
+def pulled(force, kappa_over_nu=2.0):
+    """In units of EI/ℓ²; such a beam buckles at −2.47."""
+    return {"axial_force": force, "acceleration": -force * kappa_over_nu, "tension_direction": "tangent"}
+
+
+SPRINGS = {"wall_stiffness": 1e3}
+
+
+@pytest.mark.parametrize(
+    ("kappa_over_nu", "loads", "within"),
+    [
+        *((2.0, pulled(force), 1e-6) for force in (1.8, -1.8, 0.01)),
+        (0.3, pulled(-1.0, 0.3), 1e-6),
+        (2.0, pulled(1.8) | SPRINGS | {"wall_damping": 30.0}, 1e-6),  # its dashpots change between steps
+        *((2.0, SPRINGS | {load: -1.0}, 1e-3) for load in ("curvature_rate", "fourth_derivative")),
+    ],
+)
+def test_the_budget_of_a_whole_impact_closes_under_its_loads(kappa_over_nu, loads, within):
+    impact = Impact.whole_beam(kappa_over_nu, relative_damping=1e-2).replace(**loads)
+    history = ExudynModel(mesh=UniformMesh(1 / 25)).for_whole_beam(impact).simulate(impact, end_time=0.4)
+    budget = history.energy_budget()
+    assert abs(budget["defect"]) < within * budget["initial_energy"]
+
+
 class Hurried(Penalty):
     solver = NewtonSolver(contact_iterations=1)  # of somebody's own, all else open
 
