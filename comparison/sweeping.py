@@ -8,6 +8,7 @@ holds what ``predict`` gives at the end time.
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from copy import deepcopy
 from dataclasses import dataclass, field
@@ -103,7 +104,8 @@ def cases_of(
     tables: Mapping[str, Any], vary: Mapping[str, Sequence[Any]]
 ) -> list[tuple[dict[str, Any], Case | InputError]]:
     """Each combination of the values of ``vary`` (``table.key`` → values), the last key varying fastest, and what it
-    laid over a case's ``tables`` makes. Raises :class:`InputError` where none of them is a case."""
+    laid over a case's ``tables`` makes. Raises :class:`InputError` where none of them is a case, and for a key without
+    effect on any."""
     count = int(np.prod([len(values) for values in vary.values()]))
     if not vary or not 1 <= count <= MOST:
         raise InputError(f"vary: takes at least one key with values, and {MOST} rows at most (got {count} rows)")
@@ -114,7 +116,22 @@ def cases_of(
     cases = [_case(tables, varied) for varied in combinations]
     if all(isinstance(case, InputError) for case in cases):
         raise cases[0]  # type: ignore[misc]
+    for key in vary:
+        alike: dict[str, list[Any]] = defaultdict(list)
+        for varied, case in zip(combinations, cases):
+            alike[repr({**varied, key: None})].append(_effective(case))
+        if len(vary[key]) > 1 and all(one == rows[0] for rows in alike.values() for one in rows):
+            raise InputError(f"vary: {key} has no effect: its rows would be the same; leave it out")
     return list(zip(combinations, cases))
+
+
+def _effective(case: Case | InputError) -> Any:
+    """What a row depends on."""
+    if isinstance(case, InputError):
+        return case
+    section = case.section
+    strength = section and (section.section_modulus, section.area, section.yield_stress)
+    return case.impact, case.end_time, case.mesh, case.tables, strength
 
 
 def never_leaves(impact: Impact) -> bool:

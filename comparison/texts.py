@@ -125,7 +125,7 @@ def _largest(document: dict[str, Any]) -> list[str]:
     name, title, unit = largest_of(document["peak_stress"] or simulated.get("peak_stress"))
     known = document[name]
     scale, unit = unit_for(unit, [known or simulated.get(name, {}).get("value")])
-    lines = [f"Largest {title}, {unit}:"]
+    lines = [f"Largest {title}, {unit}{'; that of the whole impact decides' * (whole is not None)}:"]
     if document["valid_until"]:
         until = f"until {milliseconds(document['valid_until'])}, when {LIMITS[document['limited_by']]}"
         lines.append(f"  {until} (theory): " + ("not known" if known is None else f"{known * scale:.4g}"))

@@ -24,10 +24,10 @@ import numpy as np
 from bent_beam.files import ENERGIES
 from bent_beam.history import Array, ImpactHistory
 from bent_beam.measure.limits import beyond_limits, limited_as
-from bent_beam.measure.reduction import hold_of
+from bent_beam.measure.reduction import WALLS, hold_of
 
 LEAST_PUSH = 1e-6  # of the largest gain of a contact point between two saved instants: less is no push
-LAST = 0.5  # of the run, or of its saved instants, that is looked at: earlier, the start is not resolved
+LAST = 0.5  # of the time to the last push, or of the saved instants, is looked at: earlier, the start is not resolved
 
 
 @dataclass(frozen=True)
@@ -37,12 +37,12 @@ class Balance:
     impulses of the contact points, added up, less J, over the largest |J|, at the end; law : likewise that of the
     contact law, where J is what the momentum lacks and is shared among the points; initial_energy : (recorded −
     ½μLV₀²)/½μLV₀² at t = 0, where the beam arrives with one velocity; gap_of_push : largest gap at the end of an
-    interval in which a contact point pushed, over V₀t, in the second half of the run.
+    interval in which a contact point pushed, over V₀t, in the second half of the contact, of the time to its last push.
 
     penetration : deepest node in a rigid wall, over V₀t; pull : most impulse that a contact point, not held, took back
-    between two saved instants, over the most that one gave; both in the second half of the run. energy : most that the
-    budget leaves at a saved instant, over the initial energy and the work of the loads; middle_slope : largest slope at
-    x = 0 of a symmetric run, over the largest anywhere. ``None`` where a number means nothing."""
+    between two saved instants, over the most that one gave; both from the second half of the contact on. energy : most
+    that the budget leaves at a saved instant, over the initial energy and the work of the loads; middle_slope : largest
+    slope at x = 0 of a symmetric run, over the largest anywhere. ``None`` where a number means nothing."""
 
     path: str  # what its limits are those of
 
@@ -81,9 +81,18 @@ def balance_of(history: ImpactHistory) -> Balance:
     )
 
 
+def _late(history: ImpactHistory) -> int:
+    """The first saved instant of the second half of the contact. A whole impact goes on for long after its end."""
+    taken = [np.diff(history.array(name), axis=0) for name in WALLS.values() if name in history]
+    gains = np.max([gain.max(axis=1, initial=0.0) for gain in taken], axis=0)
+    pushed = np.flatnonzero(gains > LEAST_PUSH * gains.max(initial=0.0))
+    last = 1 + int(pushed[-1]) if pushed.size else -1
+    return int(np.searchsorted(history.time, LAST * history.time[last]))
+
+
 def _penetration(history: ImpactHistory) -> float | None:
     """``None`` where a wall gives way or stands along a part, or contact points are no nodes."""
-    impact, first = history.impact, int(np.searchsorted(history.time, LAST * history.time[-1]))
+    impact, first = history.impact, _late(history)
     nodal = "contact_position" not in history or "position" in history
     if impact.wall_stiffness is not None or impact.wall_in_part or not nodal:
         return None
@@ -103,8 +112,7 @@ def _penetration(history: ImpactHistory) -> float | None:
 
 def _pull(history: ImpactHistory) -> float | None:
     """``None`` where nothing pushed, or what is held may pull."""
-    first = int(np.searchsorted(history.time, LAST * history.time[-1]))
-    gains = np.diff(history.array("impulse"), axis=0)
+    first, gains = _late(history), np.diff(history.array("impulse"), axis=0)
     most = float(gains.max(initial=0.0))  # of the whole run: a beam that has left gives and takes round-off
     hold = hold_of(history)
     held = hold is not None and (hold["until"] or 0.0) > history.time[first]
@@ -270,7 +278,7 @@ def _gap_of_push(history: ImpactHistory) -> float | None:
     places, x = history.contact_positions(0), history.positions(0)
     if "contact_position" in history or "position" in history or not np.all(np.isin(places, x)):
         return None
-    nodes, first = np.searchsorted(x, places), int(np.searchsorted(history.time, LAST * history.time[-1]))
+    nodes, first = np.searchsorted(x, places), _late(history)
     gains = np.diff(history.array("impulse"), axis=0)
     most, gains = float(gains.max(initial=0.0)), gains[first:]
     if most <= 0.0:

@@ -1,5 +1,6 @@
 """Momentum, initial energy and gaps of pushes, from the state of a run: a falsified run shows."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -115,6 +116,32 @@ def test_a_push_is_small_beside_the_largest_one_however_small_that_is() -> None:
     assert (found.gap_of_push, found.penetration, found.pull) == (pytest.approx(0.1), 0.0, 0.0)
 
 
+def left(depth: float, *, behind_until: float = 0.0) -> ImpactHistory:
+    """Touches until 2 s and is followed until 9 s. From 1 s on the node in the middle, which pushes, is in the wall by
+    ``depth`` V₀t; from 1.8 to 1.9 s it takes back a tenth of its largest push. The wall behind pushes at its end."""
+    time, x, middle = np.linspace(0.0, 9.0, 91), np.linspace(0.0, 1.0, 3), np.array([1.0, 0.0, 0.0])
+    gains = 0.1 * (time > 0.0) * (time < 2.05) * np.where(np.isclose(time, 1.9), -0.1, 1.0)
+    pressed = np.where((time > 0.95) & (time < 2.05), -depth * time, np.maximum(time - 2.0, 0.0))
+    behind = {"opposite_impulse": np.outer(np.minimum(time, behind_until), middle[::-1])} if behind_until else {}
+    gap = pressed[:, None] + 9.0 * (1.0 - middle)
+    return history_of(time, x, impact=WHOLE, gap=gap, impulse=np.outer(np.cumsum(gains), middle), **behind)
+
+
+@pytest.mark.parametrize(("behind_until", "seen"), [(0.0, 1.0), (3.6, 1.0), (4.4, 0.0)])
+def test_a_beam_that_has_left_is_looked_at_in_the_second_half_of_the_time_to_its_last_push(behind_until, seen) -> None:
+    """Of the last push of both walls: with 4.4 s its second half begins after the front wall's last push."""
+    found = balance_of(left(0.02, behind_until=behind_until))
+    assert found.gap_of_push == pytest.approx(0.02 * seen) and found.penetration == pytest.approx(0.02 * seen)
+    assert found.pull == pytest.approx(0.1 * seen)
+
+
+def test_a_beam_that_shears_may_be_deeper_in_the_wall() -> None:
+    found = balance_of(left(0.01))
+    for impact, warned in ((WHOLE, True), (WHOLE.replace(shear_stiffness=400.0), False)):
+        limits = limited_as(SimpleNamespace(path="hermite", settings={}, impact=impact))
+        assert any("in the wall" in line for line in replace(found, path=limits).warnings) == warned
+
+
 def test_missing_energy_is_a_share_of_what_there_was_and_of_the_work_of_loads() -> None:
     """Of 2 J and 3 J of work half a joule is missing at the end: a tenth."""
     time, x = np.linspace(0.0, 1.0, 3), np.linspace(0.0, 1.0, 3)
@@ -174,6 +201,7 @@ def test_a_sound_run_has_nothing_to_warn_of(method, impact, end) -> None:
     ],
 )
 def test_a_run_by_exudyn_has_the_limits_of_its_integrator_and_load(kind, radius, force, limits) -> None:
-    settings = {"integrator": {"kind": kind, "spectral_radius": radius}}
-    history = SimpleNamespace(path="exudyn", settings=settings, impact=WHOLE.replace(axial_force=force))
-    assert limited_as(history) == limits
+    settings, impact = {"integrator": {"kind": kind, "spectral_radius": radius}}, WHOLE.replace(axial_force=force)
+    assert limited_as(SimpleNamespace(path="exudyn", settings=settings, impact=impact)) == limits
+    sheared = SimpleNamespace(path="exudyn", settings=settings, impact=impact.replace(shear_stiffness=400.0))
+    assert limited_as(sheared) == f"{limits}, shear"
