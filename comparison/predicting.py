@@ -207,8 +207,8 @@ def predict_case(
     last = max(times)
     if method is None or last <= 0.0:
         prediction = predict(impact, times, section=case.section)
-        why = "theory alone was asked for" if method is None else "no time after 0 was asked for, nothing is simulated"
-        return PredictedCase(case, prediction, None, None, None, why, warnings)
+        unasked = "theory alone was asked for" if method is None else "nothing is simulated: ask for a time after 0"
+        return PredictedCase(case, prediction, None, None, None, unasked, warnings)
     latest = LATEST * impact.slow_time_scale
     within = max((time for time in times if 0.0 < time <= latest), default=latest)
     checked = np.geomspace(0.01 * within, within, CHECKED).tolist()

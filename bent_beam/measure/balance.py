@@ -28,6 +28,7 @@ from bent_beam.measure.reduction import WALLS, hold_of
 
 LEAST_PUSH = 1e-6  # of the largest gain of a contact point between two saved instants: less is no push
 LAST = 0.5  # of the time to the last push, or of the saved instants, is looked at: earlier, the start is not resolved
+EARLY = 0.75  # of the impulse: the rest is looked at in any case
 
 
 @dataclass(frozen=True)
@@ -37,12 +38,13 @@ class Balance:
     impulses of the contact points, added up, less J, over the largest |J|, at the end; law : likewise that of the
     contact law, where J is what the momentum lacks and is shared among the points; initial_energy : (recorded −
     ½μLV₀²)/½μLV₀² at t = 0, where the beam arrives with one velocity; gap_of_push : largest gap at the end of an
-    interval in which a contact point pushed, over V₀t, in the second half of the contact, of the time to its last push.
+    interval in which a contact point pushed, over V₀t, late.
 
     penetration : deepest node in a rigid wall, over V₀t; pull : most impulse that a contact point, not held, took back
-    between two saved instants, over the most that one gave; both from the second half of the contact on. energy : most
-    that the budget leaves at a saved instant, over the initial energy and the work of the loads; middle_slope : largest
-    slope at x = 0 of a symmetric run, over the largest anywhere. ``None`` where a number means nothing."""
+    between two saved instants, over the most that one gave; both late: from half of the time to the last push on, or
+    from when three quarters of the impulse are given, if that is earlier. energy : most that the budget leaves at a
+    saved instant, over the initial energy and the work of the loads; middle_slope : largest slope at x = 0 of a
+    symmetric run, over the largest anywhere. ``None`` where a number means nothing."""
 
     path: str  # what its limits are those of
 
@@ -82,12 +84,13 @@ def balance_of(history: ImpactHistory) -> Balance:
 
 
 def _late(history: ImpactHistory) -> int:
-    """The first saved instant of the second half of the contact. A whole impact goes on for long after its end."""
-    taken = [np.diff(history.array(name), axis=0) for name in WALLS.values() if name in history]
-    gains = np.max([gain.max(axis=1, initial=0.0) for gain in taken], axis=0)
-    pushed = np.flatnonzero(gains > LEAST_PUSH * gains.max(initial=0.0))
-    last = 1 + int(pushed[-1]) if pushed.size else -1
-    return int(np.searchsorted(history.time, LAST * history.time[last]))
+    """The first saved instant that is looked at. A beam that has left flies on, and may touch once more lightly."""
+    taken = [np.diff(history.array(name), axis=0).clip(0.0) for name in WALLS.values() if name in history]
+    gains = np.sum([one.sum(axis=1) for one in taken], axis=0)
+    pushes = np.flatnonzero(gains > LEAST_PUSH * gains.max(initial=0.0))
+    last = history.time[1 + pushes[-1] if pushes.size else -1]
+    most = history.time[1 + np.searchsorted(np.cumsum(gains), EARLY * gains.sum()) if pushes.size else -1]
+    return int(np.searchsorted(history.time, min(LAST * last, most)))
 
 
 def _penetration(history: ImpactHistory) -> float | None:
@@ -285,4 +288,5 @@ def _gap_of_push(history: ImpactHistory) -> float | None:
         return None
     fallen = history.impact.velocity * history.time[first + 1 :, None]
     gaps = np.abs(history.array("gap", slice(first + 1, None))[:, nodes]) / fallen
-    return float(gaps[gains > LEAST_PUSH * most].max(initial=0.0))
+    pushes = gains > LEAST_PUSH * most
+    return float(gaps[pushes].max()) if pushes.any() else None

@@ -116,27 +116,34 @@ def test_a_push_is_small_beside_the_largest_one_however_small_that_is() -> None:
     assert (found.gap_of_push, found.penetration, found.pull) == (pytest.approx(0.1), 0.0, 0.0)
 
 
-def left(depth: float, *, behind_until: float = 0.0) -> ImpactHistory:
+def left(depth: float, *, behind_until: float = 0.0, again: float = 0.0) -> ImpactHistory:
     """Touches until 2 s and is followed until 9 s. From 1 s on the node in the middle, which pushes, is in the wall by
-    ``depth`` V₀t; from 1.8 to 1.9 s it takes back a tenth of its largest push. The wall behind pushes at its end."""
+    ``depth`` V₀t; from 1.8 to 1.9 s it takes back a tenth of its largest push. The wall behind pushes at its end.
+    ``again`` : impulse of a second touch at 8.5 s."""
     time, x, middle = np.linspace(0.0, 9.0, 91), np.linspace(0.0, 1.0, 3), np.array([1.0, 0.0, 0.0])
     gains = 0.1 * (time > 0.0) * (time < 2.05) * np.where(np.isclose(time, 1.9), -0.1, 1.0)
-    pressed = np.where((time > 0.95) & (time < 2.05), -depth * time, np.maximum(time - 2.0, 0.0))
+    gains += again * np.isclose(time, 8.5)
+    pressed = np.where((time > 0.95) & (time < 2.05), -depth * time, np.maximum(time - 2.0, 0.0) * (time < 8.45))
     behind = {"opposite_impulse": np.outer(np.minimum(time, behind_until), middle[::-1])} if behind_until else {}
     gap = pressed[:, None] + 9.0 * (1.0 - middle)
     return history_of(time, x, impact=WHOLE, gap=gap, impulse=np.outer(np.cumsum(gains), middle), **behind)
 
 
-@pytest.mark.parametrize(("behind_until", "seen"), [(0.0, 1.0), (3.6, 1.0), (4.4, 0.0)])
-def test_a_beam_that_has_left_is_looked_at_in_the_second_half_of_the_time_to_its_last_push(behind_until, seen) -> None:
-    """Of the last push of both walls: with 4.4 s its second half begins after the front wall's last push."""
-    found = balance_of(left(0.02, behind_until=behind_until))
-    assert found.gap_of_push == pytest.approx(0.02 * seen) and found.penetration == pytest.approx(0.02 * seen)
-    assert found.pull == pytest.approx(0.1 * seen)
+@pytest.mark.parametrize(("behind_until", "again"), [(0.0, 0.0), (3.6, 0.0), (0.0, 0.01)])
+def test_a_beam_that_has_left_is_looked_at_late_in_its_contact_whether_it_touches_again_or_not(behind_until, again):
+    found = balance_of(left(0.02, behind_until=behind_until, again=again))
+    assert found.gap_of_push == pytest.approx(0.02) and found.penetration == pytest.approx(0.02)
+    assert found.pull == pytest.approx(0.1)
+
+
+def test_what_is_not_looked_at_has_no_gap_of_a_push() -> None:
+    """The last push is that of the wall behind, at 4.4 s: half of that is after the other wall's last push."""
+    found = balance_of(left(0.02, behind_until=4.4))
+    assert (found.gap_of_push, found.penetration, found.pull) == (None, 0.0, 0.0)
 
 
 def test_a_beam_that_shears_may_be_deeper_in_the_wall() -> None:
-    found = balance_of(left(0.01))
+    found = balance_of(left(0.04))
     for impact, warned in ((WHOLE, True), (WHOLE.replace(shear_stiffness=400.0), False)):
         limits = limited_as(SimpleNamespace(path="hermite", settings={}, impact=impact))
         assert any("in the wall" in line for line in replace(found, path=limits).warnings) == warned
