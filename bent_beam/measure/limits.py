@@ -27,8 +27,8 @@ pull), and for the energy of other whole impacts. Means of generalised-α with �
 steps close the energy to their own order alone and have forces within them: theirs are ten times the worst of
 κ/ν = 0.25 and 1.5. An axial force works on the stretch of all of the beam: 3e-5 at N = 20 EI/ℓ². A beam that shears
 is deeper in the wall: Hermite's contact is then at velocity level (0.014 under a load), Exudyn's penalty soft
-(0.02 of a flat beam with a damping ratio of 5 %; its rim pulled by 1e-6 once). ``law``: one step with which the solver keeps a wrong state of the
-contact may have 4e-3."""
+(0.02 of a flat beam with a damping ratio of 5 %, and a pull of 1e-6). ``law``: one step with which the solver keeps a
+wrong state of the contact may have 4e-3."""
 IMPLICIT = ("GeneralizedAlpha", "Newmark", "Trapezoidal")
 """Integrators of Exudyn with the limits of "exudyn"; one that is not named has those of the explicit ones."""
 ELSEWHERE = {"penetration": 1e-2, "pull": 0.1, "energy": 1e-2, "middle_slope": 1e-6, "law": 0.04}

@@ -12,13 +12,13 @@ from called import answered, refused
 from histories import rod
 from scipy.integrate import solve_ivp
 
-from bent_beam import Impact
+from bent_beam import Impact, load_case
 from bent_beam.free_flight import has_left
 from bent_beam.history import ImpactHistory
 from bent_beam.measure.numbers import Band
 from bent_beam.measure.whole_impact import whole_impact
 from bent_beam.meshes import UniformMesh
-from bent_beam.method import separation_times, simulate_to_separation, time_on_wall
+from bent_beam.method import LONGEST_OF_WALL, separation_times, simulate_to_separation, time_on_wall
 from comparison.bouncing import bounce, case_of, follow_hits, problem
 from comparison.questions import Question
 from comparison.store import RunStore
@@ -145,15 +145,17 @@ def test_the_command_gives_numbers_with_bars_figures_and_the_stress_of_the_large
     monkeypatch.setattr("comparison.figures.history.FRAMES", 2)
     out = tmp_path / "out"
     twice = ("--set", "impact.velocity=2.0")
-    found = answered(
-        "bounce", rod(tmp_path, element=0.1), *twice, "--path", "hermite", "--path", "exudyn", "--out", out
-    )
+    file = rod(tmp_path, element=0.1)
+    found = answered("bounce", file, *twice, "--path", "hermite", "--path", "exudyn", "--hits", 3, "--out", out)
     assert {file.name for file in out.iterdir()} == {"bounce.json", "bounce.png", "bounce.gif"}
     assert [one["path"] for one in found["paths"]] == ["hermite", "exudyn"]
     assert json.loads((out / "bounce.json").read_text()) == {n: v for n, v in found.items() if n != "files"}
     assert set(found["energy"]) == {"translation", "vibration", "dissipated"}
     assert {"restitution", "impulse", "last_contact", "separations", "peak_moment", "midspan_moment"} <= set(found)
     assert 0.0 < found["restitution"]["value"] < 1.0 and found["left"]
+    longest = 1e3 * LONGEST_OF_WALL * load_case(file).impact.slow_time_scale
+    assert len(found["hits"]) == 1 and found["warnings"][-1].startswith("1 of 3 hits: then the beam is off for good")
+    assert found["warnings"][-1].endswith(f"or is not back by {longest:.3g} ms")
     momentum, modulus = 7850.0 * math.pi * 0.01**2 * 2.0, math.pi * 0.02**3 / 32.0
     impulse, restitution = found["si"]["impulse"]["value"], found["restitution"]["value"]
     assert impulse == pytest.approx(momentum * (1.0 + restitution), rel=1e-6)

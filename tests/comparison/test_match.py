@@ -14,7 +14,7 @@ from strangers import Stranger
 from bent_beam import ImpactHistory, InputError, load_case
 from bent_beam.measure.numbers import MISSING, Number
 from comparison.figures.matching import leading_figure, write_match
-from comparison.matching import PERTURBATION, answer, match
+from comparison.matching import PERTURBATION, _peak_force, answer, match
 from comparison.methods import methods_from_file
 from comparison.rows import (
     THESIS_KAPPAS,
@@ -29,6 +29,7 @@ from comparison.store import RunStore
 from exudyn_models import ExudynModel
 from hermite_fe import HermiteFE
 from self_similar_fe import SelfSimilarFE
+from theory.elastic_wall import FLATTEST, MOST_DAMPED, SHARPEST, peak_force
 
 KEEP = RunStore(None)
 
@@ -278,3 +279,18 @@ def test_runs_of_first_order_change_the_free_motion_by_a_small_part(front, first
     z, part = front + (1.0 + front**2) ** -0.5, 0.05 * front / (front + 0.2)
     epsilon = first_order_epsilon(SimpleNamespace(front=front), first, 0.05, 0.1)  # type: ignore[arg-type]
     assert epsilon * 0.1 * change(z) == pytest.approx(part)
+
+
+def test_the_theory_of_a_soft_wall_stands_beside_the_force_of_a_beam_without_loads_within_its_range() -> None:
+    sound = {"first": None, "kappa_over_nu": 0.5, "wall": (1e3, MOST_DAMPED)}
+    runs = [SimpleNamespace(reading={"peak_force": force}) for force in (1.0, 1.1)]
+
+    def theory(**change):
+        found = _peak_force(SimpleNamespace(**sound | change), runs)  # type: ignore[arg-type]
+        assert found.value == 1.0 and found.bar > 0.0
+        return found.theory
+
+    assert theory() == peak_force(0.5, MOST_DAMPED).value != theory(wall=None) == peak_force(0.5, 0.0).value
+    assert theory(kappa_over_nu=SHARPEST) is not None and theory(kappa_over_nu=FLATTEST) is not None
+    beyond = [{"kappa_over_nu": 1.01 * SHARPEST}, {"kappa_over_nu": 0.99 * FLATTEST}, {"first": (1.0, 0.0, 0.0, 0.0)}]
+    assert [theory(**change) for change in (*beyond, {"wall": (1e3, 1.01 * MOST_DAMPED)})] == [None] * 4

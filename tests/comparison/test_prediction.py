@@ -187,6 +187,7 @@ def test_a_gate_that_touches_all_at_once_mistaken_units_and_a_hole_that_bends_on
     assert doubts(soft.replace(wall_damping=0.0, wall_stiffness=3.2, velocity=2.0), None)[0].startswith(
         "the wall gives way by some 1.1 m"
     )
+    assert doubts(soft.replace(wall_damping=0.0, wall_stiffness=4.1, velocity=2.0), None) == []  # 0.99 m of 1 m
     assert doubts(soft.replace(wall_damping=5.6), None) == doubts(soft.replace(wall_from=0.1, wall_to=0.1), None) == []
     assert "the second wall is flat" in doubts(hole, None)[-1] and doubts(hole.replace(wall_curvature=0.0), None) == []
 
