@@ -98,8 +98,8 @@ def is_over(history: ImpactHistory) -> bool:
 
 
 def _quiet(history: ImpactHistory) -> float:
-    """s at the end of a run since the start of the saved interval of the last push; 0 without one. The run itself, in
-    which :class:`Separation` knows the step of that push, has not counted more."""
+    """s from the start of the saved interval of the last push to the end of a run; 0 without one. It is at least what
+    :class:`Separation` has counted, which knows the step of that push."""
     pushed = np.flatnonzero(acting(history.array("total_impulse")))
     return float(history.time[-1] - history.time[pushed[-1]]) if pushed.size else 0.0
 

@@ -38,7 +38,7 @@ from theory import Prediction, predict
 PATH = "hermite"
 COMPARED = ("half_contact_length", "reaction", "impulse", "peak_moment", "peak_stress")
 """What theory and simulation both say at a time."""
-OF_WHOLE = ("restitution", "last_contact", "peak_moment", "peak_stress", "peak_force", "push")
+OF_WHOLE_IMPACT = ("restitution", "last_contact", "peak_moment", "peak_stress", "peak_force", "push")
 OF_INSTANT = ("half_contact_length", "reaction", "impulse", "peak_moment", "peak_force", "peak_penetration",
               "peak_pressure")  # fmt: skip
 """Fields of :class:`bent_beam.measure.instant.Instant` that are numbers."""
@@ -157,7 +157,7 @@ class PredictedCase:
             "whole_impact": None
             if whole is None
             else {
-                **documents(whole.in_si, OF_WHOLE),
+                **documents(whole.in_si, OF_WHOLE_IMPACT),
                 **whole.hardest,
                 "span": list(whole.span),
                 "over_damping": whole.over_damping,

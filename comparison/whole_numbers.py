@@ -4,7 +4,8 @@ A further number is a line of the table and a field of :class:`bent_beam.measure
 it off the record (or :mod:`bent_beam.measure.reduction`). The record must have what it needs: ``VARIABLES`` in
 bent_beam/files.py, written by both paths (hermite_fe/simulate.py, exudyn_models/recording.py). What no companion run
 shows of its error is named in :mod:`comparison.bouncing`. With a heading, or where its name begins with
-``peak_moment``, a sweep has it.
+``peak_moment``, a sweep has it. ``predict`` says those of ``OF_WHOLE_IMPACT`` (predicting.py, in the words of
+texts.py), the page those of its ``answer.js``; ``SHOWN`` in figures/sweep.py are drawn.
 """
 
 from __future__ import annotations

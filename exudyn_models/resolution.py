@@ -24,8 +24,8 @@ from exudyn_models.integrators import Implicit
 GROWTH = 0.01  # of elements, one to the next: 5 lie over the front's bending length at κ/ν = 0.05, 20 at 0.2
 THIN = 0.12  # κ/ν below which node hits at the front of that mesh lift the zone: at 0.07 λ₁ would be 23 % off by it
 WAVES, GROWTH_OF_WAVES = 2.0, 0.02  # times the front's bound: beyond are waves alone, and elements grow by so much
-OF_ZONE, OF_BENDING = 300.0, 30.0  # smallest elements: over the front's bound, over the bending length ahead of it, …
-OF_SHORT_ZONE, SHORTEST = 60.0, 0.01  # … over a short zone: the bound times 1 − κ/ν, but times this at least
+OF_ZONE, OF_BENDING = 300.0, 30.0  # smallest elements in the front's bound, in the bending length ahead of it, …
+OF_SHORT_ZONE, SHORTEST = 60.0, 0.01  # … in a short zone: the bound times 1 − κ/ν, or times SHORTEST if larger
 OF_SHORT_ZONE_EXPLICIT, SHORTEST_EXPLICIT = 3.0, 0.07  # likewise; λ₀ is 12 % off at κ/ν = 0.93 with 1.8 elements
 OF_THIN_FRONT = 3.0  # equal elements: over the bending length of a thin front at the end of the run, …
 LEAST_OF_ZONE, MOST_OF_ZONE = 300.0, 800.0  # … but up to the front's bound so many at least, and at most

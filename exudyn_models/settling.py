@@ -10,8 +10,8 @@ own (``imposes``: closed is what pushes), that decides, and the states are writt
   time is switched until fewer do: the one with the largest force, and after ``PERSISTENCE`` repetitions more the last
   (Murty's rule; as in the Hermite path: Júdice & Pires 1994, Comput. Oper. Res. 21, 587);
 - a state comes back that this step had already tried: the next of these rules is taken at once, as the first two may
-  circle although a state is consistent. Where it comes back under Murty's, none is taken to be: of the states of that
-  circle, the one that contradicts itself least is accepted, and counted;
+  circle although a state is consistent. Where it comes back under Murty's, no state is taken to be consistent: the one
+  of that circle that contradicts itself least is accepted, and counted;
 - the repetitions run out before: the step is not solved.
 """
 

@@ -42,7 +42,7 @@ SLOWER = 2.0 * math.sqrt(2.0)  # its steps; the penalty is softer by the square.
 SLOWER_ON_PLATE = 4.0  # steps where hits are plastic: the impulse moves by 1e-4, the moment by 3e-4
 LARGEST_OF_WALL = 0.25  # ℓ_k: elements before a wall that gives way
 SHEARED_ELEMENTS = 160  # of a half beam that shears
-SLOWER_SHEARED, THICK = 2.0, 0.35  # its steps, from this κ/ν on: at 0.2 they move e by 2e-4, at 0.1 by 0.01
+SLOWER_SHEARED, THICK = 2.0, 0.35  # times longer steps, from κ/ν = THICK on: at 0.2 they move e by 2e-4, at 0.1 by 0.01
 FLIGHT, DAMPED_FLIGHT = 5e-4, 0.04  # steps off the wall, over T* and √(ηT*)
 ABSOLUTE = 1e-5  # of the amplitude: Newton stalls at 1e-8 on 240 elements, geometrically exact ones at 1e-6
 RELATIVE = 1e-8  # of what a step begins with: 1e-5 of a long step's is up to 3e-5 of the energy

@@ -27,8 +27,8 @@ from bent_beam.measure.limits import beyond_limits, limited_as
 from bent_beam.measure.reduction import WALLS, hold_of
 
 LEAST_PUSH = 1e-6  # of the largest gain of a contact point between two saved instants: less is no push
-LAST = 0.5  # of the time to the last push, or of the saved instants, is looked at: earlier, the start is not resolved
-EARLY = 0.75  # of the impulse: the rest is looked at in any case
+LAST = 0.5  # of the time to the last push, or of the saved instants: checks begin there, the start is not resolved
+EARLY = 0.75  # of the impulse: checks begin when it is given, at the latest
 
 
 @dataclass(frozen=True)

@@ -33,11 +33,11 @@ FLOOR = 2e-3  # of the larger of λ₁ and r₁: what halving mesh and steps mov
 LEAST_LEADING = 1e-4  # of a leading-order value: what runs keep that no refinement moves any more
 DRIFT_ALONE = 4.0  # of the spread over the window and its parts, where no companion says what the mesh does
 LIFTED = 0.1  # of V₀t: a larger lift counts whole, a smaller one in proportion to itself
-INSIDE = 0.5  # of what the lift does to r₀, to λ₀: pushes off the zone act anywhere behind the front
-STUCK_FIRST = 0.4  # likewise of a load that should lift the zone and does not: springs push on, or no node is there
+INSIDE = 0.5  # relative error of λ₀ over that of r₀, by a lift: such pushes act anywhere behind the front
+STUCK_FIRST = 0.4  # … of a load that should lift the zone and does not: springs push on, or no node is there
 LIFTED_FIRST = 2.0  # of what the lift does to r₀ and λ₀: a load moves the front of a lifted zone differently
-LIFTED_MORE, UNDER_LIFT = 0.01, 10.0  # of V₀t, from which a load that lifts a thrown-off zone is answered otherwise: so
-# many times what it is above; velocity-level laws at κ/ν = 0.055 and 0.075 lift it by 0.03, and r₁ is 40 and 23 % off
+LIFTED_MORE, UNDER_LIFT = 0.01, 10.0  # under a load that lifts, the second times what the lift has beyond the first,
+# of V₀t, is added: velocity-level laws at κ/ν = 0.055 and 0.075 lift it by 0.03, and r₁ is 40 and 23 % off
 HITS_FIRST = 3.0  # times what a load that lifts the zone changes of hits inside it: they also act closer to the front
 MISSING_FIRST = 2.5  # of the zone's length times what its uniform reaction lacks: a zone off the wall moves the front
 
