@@ -211,9 +211,12 @@ def test_a_warning_of_one_of_several_runs_says_of_which() -> None:
     assert any(line.startswith("the mesh cannot resolve") for line in found.warnings), "both runs say so"
 
 
-def test_the_round_off_of_an_impulse_is_no_force_that_companions_disagree_about() -> None:
-    for more, bar in ((2.0**-50, 0.0), (1e-3, FACTOR * 1e-3 / 0.4)):
-        readings = ({"impulse": 1.0, "impulse_around": [1.0, 1.0 + one, 1.0]} for one in (0.0, more))
+def test_companions_disagree_about_a_force_by_what_they_change_of_parts_of_its_impulse_and_not_by_round_off() -> None:
+    """Beyond what they change of all of it: that is in the bar already."""
+    unsure = FACTOR * 1e-3 / 0.4
+    for more, all_of_it, bar in ((2.0**-50, 0.0, 0.0), (1e-3, 0.0, unsure), (3e-3, 2e-3, unsure)):
+        changes = ([0.0, 0.0, 0.0], [0.0, more, all_of_it])
+        readings = ({"impulse": 1.0, "impulse_around": [1.0 + one for one in change]} for change in changes)
         run, other = (SimpleNamespace(reading=reading) for reading in readings)
         runs: Any = SimpleNamespace(run=run, companions={"x": other}, question=SimpleNamespace(until=2.0))
         assert predicting._crossings_of_force(runs) == pytest.approx(bar, rel=1e-9, abs=0.0)
