@@ -182,4 +182,4 @@ def test_what_a_run_under_way_is_asked_for_is_what_its_record_says(full):
 def test_elements_of_a_thin_front_are_a_third_of_the_bending_length_ahead_of_it_within_limits(kappa_over_nu, elements):
     """That length is √(2κ/ν), the front's bound √(2ν/κ), both times √(t/t*)."""
     first = chosen_mesh(Impact.dimensionless(kappa_over_nu), 0.4).places[1]
-    assert math.sqrt(2.0 / kappa_over_nu * 0.4) / first == pytest.approx(elements)
+    assert math.sqrt(2.0 / kappa_over_nu * 0.4) / first == pytest.approx(elements, rel=2e-3)  # of whole elements
