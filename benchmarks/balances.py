@@ -3,8 +3,8 @@
     make coverage                                (python -m benchmarks.balances [--runs 60] [--path NAME] [--seed N])
 
 Sixty runs of each path with its defaults, drawn at random: κ/ν log-uniform from 0.05 to 3; half of them, by a coin,
-whole damped beams until they have left, every other of which shears, its shear length log-uniform from 0.005 to 0.1
-half lengths; the others infinite beams until 0.1 t*, with α and χ of -0.5, 0 or 0.5 each (the self-similar path:
+whole damped beams until they have left, of which half shear, by another coin, with shear lengths log-uniform from 0.005
+to 0.1 half lengths; the others infinite beams until 0.1 t*, with α and χ of -0.5, 0 or 0.5 each (the self-similar path:
 infinite ones alone). Prints the worst of each check and its limit; fails where a run exceeds it.
 """
 

@@ -207,8 +207,8 @@ def predict_case(
     last = max(times)
     if method is None or last <= 0.0:
         prediction = predict(impact, times, section=case.section)
-        unasked = "theory alone was asked for" if method is None else "nothing is simulated: ask for a time after 0"
-        return PredictedCase(case, prediction, None, None, None, unasked, warnings)
+        instead = "leave --theory-only out" if method is None else "ask for a time after 0"
+        return PredictedCase(case, prediction, None, None, None, f"nothing is simulated: {instead}", warnings)
     latest = LATEST * impact.slow_time_scale
     within = max((time for time in times if 0.0 < time <= latest), default=latest)
     checked = np.geomspace(0.01 * within, within, CHECKED).tolist()

@@ -121,17 +121,17 @@ def cases_of(
         for varied, case in zip(combinations, cases):
             alike[repr({**varied, key: None})].append(_effective(case))
         if len(vary[key]) > 1 and all(one == rows[0] for rows in alike.values() for one in rows):
-            raise InputError(f"vary: {key} has no effect: its rows would be the same; leave it out")
+            raise InputError(f"vary: {key} has no effect on any row (got {shortened(list(vary[key]))}): leave it out")
     return list(zip(combinations, cases))
 
 
 def _effective(case: Case | InputError) -> Any:
     """What a row depends on."""
     if isinstance(case, InputError):
-        return case
+        return str(case)
     section = case.section
     strength = section and (section.section_modulus, section.area, section.yield_stress)
-    return case.impact, case.end_time, case.mesh, case.tables, strength
+    return case.impact, case.damping_stated, case.end_time, case.mesh, case.tables, strength
 
 
 def never_leaves(impact: Impact) -> bool:

@@ -27,8 +27,8 @@ from bent_beam.measure.limits import beyond_limits, limited_as
 from bent_beam.measure.reduction import WALLS, hold_of
 
 LEAST_PUSH = 1e-6  # of the largest gain of a contact point between two saved instants: less is no push
-LAST = 0.5  # of the time to the last push, or of the saved instants: checks begin there, the start is not resolved
-EARLY = 0.75  # of the impulse: checks begin when it is given, at the latest
+LAST = 0.5  # of the time to the last push, or of the saved instants: checks begin there; the start is not resolved
+EARLY = 0.8  # of the impulse: what is given after it is always looked at
 
 
 @dataclass(frozen=True)
@@ -38,13 +38,13 @@ class Balance:
     impulses of the contact points, added up, less J, over the largest |J|, at the end; law : likewise that of the
     contact law, where J is what the momentum lacks and is shared among the points; initial_energy : (recorded −
     ½μLV₀²)/½μLV₀² at t = 0, where the beam arrives with one velocity; gap_of_push : largest gap at the end of an
-    interval in which a contact point pushed, over V₀t, late.
+    interval in which a contact point pushed, over V₀t.
 
     penetration : deepest node in a rigid wall, over V₀t; pull : most impulse that a contact point, not held, took back
-    between two saved instants, over the most that one gave; both late: from half of the time to the last push on, or
-    from when three quarters of the impulse are given, if that is earlier. energy : most that the budget leaves at a
-    saved instant, over the initial energy and the work of the loads; middle_slope : largest slope at x = 0 of a
-    symmetric run, over the largest anywhere. ``None`` where a number means nothing."""
+    between two saved instants, over the most that one gave. These three look at a late contact: from half of the time
+    to the last push on, or from when four fifths of the impulse are given, if that is earlier. energy : most that
+    the budget leaves at a saved instant, over the initial energy and the work of the loads; middle_slope : largest
+    slope at x = 0 of a symmetric run, over the largest anywhere. ``None`` where a number means nothing."""
 
     path: str  # what its limits are those of
 
@@ -83,19 +83,21 @@ def balance_of(history: ImpactHistory) -> Balance:
     )
 
 
-def _late(history: ImpactHistory) -> int:
-    """The first saved instant that is looked at. A beam that has left flies on, and may touch once more lightly."""
-    taken = [np.diff(history.array(name), axis=0).clip(0.0) for name in WALLS.values() if name in history]
+def _late(history: ImpactHistory, *walls: str) -> int:
+    """The saved instant from which on a contact with ``walls`` is looked at. A beam that has left flies on for long,
+    and may touch once more, lightly: the interval in which ``EARLY`` of the impulse is reached is never before it."""
+    taken = [np.diff(history.array(name), axis=0).clip(0.0) for name in walls if name in history]
     gains = np.sum([one.sum(axis=1) for one in taken], axis=0)
     pushes = np.flatnonzero(gains > LEAST_PUSH * gains.max(initial=0.0))
-    last = history.time[1 + pushes[-1] if pushes.size else -1]
-    most = history.time[1 + np.searchsorted(np.cumsum(gains), EARLY * gains.sum()) if pushes.size else -1]
-    return int(np.searchsorted(history.time, min(LAST * last, most)))
+    if not pushes.size:
+        return int(np.searchsorted(history.time, LAST * history.time[-1]))
+    most = np.searchsorted(np.cumsum(gains), EARLY * gains.sum())
+    return min(int(np.searchsorted(history.time, LAST * history.time[1 + pushes[-1]])), int(most))
 
 
 def _penetration(history: ImpactHistory) -> float | None:
     """``None`` where a wall gives way or stands along a part, or contact points are no nodes."""
-    impact, first = history.impact, _late(history)
+    impact, first = history.impact, _late(history, *WALLS.values())
     nodal = "contact_position" not in history or "position" in history
     if impact.wall_stiffness is not None or impact.wall_in_part or not nodal:
         return None
@@ -115,7 +117,7 @@ def _penetration(history: ImpactHistory) -> float | None:
 
 def _pull(history: ImpactHistory) -> float | None:
     """``None`` where nothing pushed, or what is held may pull."""
-    first, gains = _late(history), np.diff(history.array("impulse"), axis=0)
+    first, gains = _late(history, "impulse"), np.diff(history.array("impulse"), axis=0)
     most = float(gains.max(initial=0.0))  # of the whole run: a beam that has left gives and takes round-off
     hold = hold_of(history)
     held = hold is not None and (hold["until"] or 0.0) > history.time[first]
@@ -281,12 +283,11 @@ def _gap_of_push(history: ImpactHistory) -> float | None:
     places, x = history.contact_positions(0), history.positions(0)
     if "contact_position" in history or "position" in history or not np.all(np.isin(places, x)):
         return None
-    nodes, first = np.searchsorted(x, places), _late(history)
+    nodes, first = np.searchsorted(x, places), _late(history, "impulse")
     gains = np.diff(history.array("impulse"), axis=0)
     most, gains = float(gains.max(initial=0.0)), gains[first:]
     if most <= 0.0:
         return None
     fallen = history.impact.velocity * history.time[first + 1 :, None]
     gaps = np.abs(history.array("gap", slice(first + 1, None))[:, nodes]) / fallen
-    pushes = gains > LEAST_PUSH * most
-    return float(gaps[pushes].max()) if pushes.any() else None
+    return float(gaps[gains > LEAST_PUSH * most].max(initial=0.0))

@@ -9,7 +9,7 @@ from histories import history_of
 
 from bent_beam import Impact, ImpactHistory
 from bent_beam.measure.balance import balance_of
-from bent_beam.measure.limits import limited_as
+from bent_beam.measure.limits import LIMITS, limited_as
 from bent_beam.measure.reduction import peak_moment
 from bent_beam.meshes import UniformMesh
 from exudyn_models import ExudynModel
@@ -116,13 +116,13 @@ def test_a_push_is_small_beside_the_largest_one_however_small_that_is() -> None:
     assert (found.gap_of_push, found.penetration, found.pull) == (pytest.approx(0.1), 0.0, 0.0)
 
 
-def left(depth: float, *, behind_until: float = 0.0, again: float = 0.0) -> ImpactHistory:
-    """Touches until 2 s and is followed until 9 s. From 1 s on the node in the middle, which pushes, is in the wall by
-    ``depth`` V₀t; from 1.8 to 1.9 s it takes back a tenth of its largest push. The wall behind pushes at its end.
-    ``again`` : impulse of a second touch at 8.5 s."""
+def left(depth: float, *, pull: float = 0.1, behind_until: float = 0.0, again: float = 0.0) -> ImpactHistory:
+    """Touches until 2 s and is followed until 9 s, with impulses that are round-off. From 1 s on the node in the
+    middle, which pushes, is in the wall by ``depth`` V₀t; from 1.8 to 1.9 s it takes back ``pull`` of its largest push.
+    The wall behind pushes at its end. ``again`` : impulse of a second touch at 8.5 s."""
     time, x, middle = np.linspace(0.0, 9.0, 91), np.linspace(0.0, 1.0, 3), np.array([1.0, 0.0, 0.0])
-    gains = 0.1 * (time > 0.0) * (time < 2.05) * np.where(np.isclose(time, 1.9), -0.1, 1.0)
-    gains += again * np.isclose(time, 8.5)
+    gains = 0.1 * (time > 0.0) * (time < 2.05) * np.where(np.isclose(time, 1.9), -pull, 1.0)
+    gains += again * np.isclose(time, 8.5) + 1e-12 * (time > 8.6)
     pressed = np.where((time > 0.95) & (time < 2.05), -depth * time, np.maximum(time - 2.0, 0.0) * (time < 8.45))
     behind = {"opposite_impulse": np.outer(np.minimum(time, behind_until), middle[::-1])} if behind_until else {}
     gap = pressed[:, None] + 9.0 * (1.0 - middle)
@@ -136,17 +136,52 @@ def test_a_beam_that_has_left_is_looked_at_late_in_its_contact_whether_it_touche
     assert found.pull == pytest.approx(0.1)
 
 
-def test_what_is_not_looked_at_has_no_gap_of_a_push() -> None:
-    """The last push is that of the wall behind, at 4.4 s: half of that is after the other wall's last push."""
+def test_each_wall_has_a_late_contact_of_its_own() -> None:
+    """Half of the time to the last push of both, 4.4 s, is after the front wall's last push."""
     found = balance_of(left(0.02, behind_until=4.4))
-    assert (found.gap_of_push, found.penetration, found.pull) == (None, 0.0, 0.0)
+    assert (found.gap_of_push, found.pull) == (pytest.approx(0.02), pytest.approx(0.1))
 
 
-def test_a_beam_that_shears_may_be_deeper_in_the_wall() -> None:
-    found = balance_of(left(0.04))
-    for impact, warned in ((WHOLE, True), (WHOLE.replace(shear_stiffness=400.0), False)):
+@pytest.mark.parametrize(
+    ("pushes", "first"),
+    [
+        ([1.0, 0.0, 0.0, 0.0, 0.0, 0.0], 0),  # the one push is looked at
+        ([0.6, 0.4, 0.0, 0.0, 0.0, 1e-3], 1),  # 80 % are reached in the second interval
+        ([0.85, 0.15, 0.0, 0.0, 0.0, 1e-3], 0),
+        ([0.2, 0.2, 0.2, 0.2, 0.2, 0.0], 3),  # half of five
+        ([0.2, 0.2, 0.2, 0.2, 0.2, 0.2], 3),
+        ([0.1, 0.4, 0.2, 0.1, 0.1, 0.1], 3),
+        ([0.5, 0.3, -0.3, 0.3, 0.0, 1e-3], 3),  # what is taken back was given
+        ([0.9, 0.1, 1e-9, 1e-9, 1e-9, 1e-9], 0),  # round-off is no push
+    ],
+)
+def test_the_late_contact_begins_with_half_of_the_time_to_the_last_push_or_four_fifths_of_the_impulse(pushes, first):
+    """The node is off the wall at the end of one interval after another: it counts from ``first`` on, if it pushes."""
+    time = np.arange(7.0)
+    impulse, gap = np.zeros((7, 2)), np.zeros((7, 2))
+    impulse[1:, 0] = np.cumsum(pushes)
+    for k in range(6):
+        gap[:] = 0.0
+        gap[k + 1, 0] = 0.5 * (k + 1)
+        found = balance_of(history_of(time, [0.0, 1.0], impact=WHOLE, gap=gap, impulse=impulse))
+        assert (found.gap_of_push > 0.0) == (k >= first and pushes[k] > 1e-6 * max(pushes)), k
+
+
+@pytest.mark.parametrize(
+    ("depth", "pull", "bends", "shears"),
+    [(9e-4, 9e-4, [], []), (0.049, 9e-4, ["in the wall"], []), (0.051, 2e-3, *2 * [["in the wall", "the wall pulls"]])],
+)
+def test_a_beam_that_shears_may_be_deeper_in_the_wall(depth, pull, bends, shears) -> None:
+    found = balance_of(left(depth, pull=pull))
+    for impact, said in ((WHOLE, bends), (WHOLE.replace(shear_stiffness=400.0), shears)):
         limits = limited_as(SimpleNamespace(path="hermite", settings={}, impact=impact))
-        assert any("in the wall" in line for line in replace(found, path=limits).warnings) == warned
+        warnings = replace(found, path=limits, initial_energy=None).warnings
+        assert len(warnings) == len(said) and all(part in line for part, line in zip(said, warnings))
+
+
+def test_no_limit_of_a_beam_that_shears_is_narrower() -> None:
+    for path in ("hermite", "self_similar", "exudyn", "exudyn, axial force", "exudyn, explicit or ρ∞ > ½"):
+        assert all(LIMITS[f"{path}, shear"][name] >= limit for name, limit in LIMITS[path].items())
 
 
 def test_missing_energy_is_a_share_of_what_there_was_and_of_the_work_of_loads() -> None:
