@@ -243,7 +243,10 @@ def test_theory_only_simulates_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     tube = load_case(CASES / "tube.toml")
     late = predict_case(tube, [1.01 * LATEST * tube.impact.slow_time_scale], whole=False)  # T* is not a second
     assert late.simulated == [{}] and "are not simulated here" in " ".join(late.warnings)
-    assert "yields at: 931" in command("predict", PIPE, "--theory-only")[1]
+    said = command("predict", PIPE, "--theory-only")[1]
+    assert "yields at: 931" in said and "Largest stress, MPa:\n" in said
+    assert "not known here (nothing is simulated: leave --theory-only out)" in said
+    assert "(nothing is simulated: ask for a time after 0)" in command("predict", PIPE, "--time", "0")[1]
     mistaken = ("--set", "hermite.integrator.kind=nonsense")
     assert "hermite.integrator.kind" in refused("predict", PIPE, "--theory-only", *mistaken)
 

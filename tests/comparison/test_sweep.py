@@ -8,9 +8,11 @@ import xarray
 from called import answered, command
 from histories import rod
 
+from bent_beam.cases import read_toml
+from bent_beam.errors import InputError
 from bent_beam.measure.numbers import Band, Number
 from comparison import sweep
-from comparison.sweeping import NAMES, Row, SweepTable, varied_from
+from comparison.sweeping import NAMES, Row, SweepTable, cases_of, varied_from
 from hermite_fe import HermiteFE
 
 
@@ -91,6 +93,28 @@ def test_a_table_says_a_sentence_once_with_its_rows_and_a_grid_is_in_si():
                                 "peak_force_std": (1e2, "N"), "restitution": (0.5, "1")}.items():  # fmt: skip
         assert grid[name].attrs["units"] == unit
         assert grid[name].values == pytest.approx([value, value, np.nan], nan_ok=True)
+
+
+@pytest.mark.parametrize(
+    ("key", "values"),
+    [
+        ("impact.velocity", [1.0, 2.0]), ("beam.damping", [None, 0.0]), ("section.yield_stress", [2e8, 3e8]),
+        ("mesh.element_length", [0.05, 0.1]), ("hermite.refine", [1.0, 2.0]), ("run.end_time", [0.01, 0.02]),
+    ],
+)  # fmt: skip
+def test_a_key_has_an_effect_by_what_a_row_depends_on(key, values, case):
+    tables = read_toml(case, "case file")
+    tables["beam"].pop("damping_ratio")
+    assert len(cases_of(tables, {key: values})) == 2
+
+
+@pytest.mark.parametrize("speeds", [[1.0], [1.0, 2.0], [1.0, -2.0]])
+def test_a_key_without_effect_is_refused_beside_rows_that_are_refused_too(speeds, case):
+    tables, asked = read_toml(case, "case file"), {"section.poisson_ratio": [0.2, 0.3], "impact.velocity": speeds}
+    assert len(cases_of(tables, asked)) == 2 * len(speeds)
+    tables["beam"]["model"] = "euler_bernoulli"
+    with pytest.raises(InputError, match=r"section.poisson_ratio has no effect on any row \(got \[0.2, 0.3\]\)"):
+        cases_of(tables, asked)
 
 
 def test_values_are_those_that_one_would_type():

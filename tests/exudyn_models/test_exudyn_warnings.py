@@ -15,16 +15,17 @@ IMPACT = Impact.dimensionless(0.5, length=1000.0)
 PLACES = np.linspace(0.0, 40.0, 401)  # Λ
 
 
-def stated(*, impact=IMPACT, places=PLACES, given=True, half_length=40.0, lost=0.0, slender=True, **run):
-    """The warnings of a sound run of two saved instants but for what is given."""
+def stated(*, impact=IMPACT, places=PLACES, given=True, half_length=40.0, lost=0.0, slender=True, settles=True, **run):
+    """The warnings of a sound run but for what is given: ``in_wall`` is a place, Λ, of a beam that is else 1 before its
+    wall; ``velocity_y``, ``wall_y`` and ``wall_slope`` are those of its shape; ``lost`` is given back, J, and taken."""
     parts = {"step": 1e-3, "unsettled": 0, "cycles": 0, "deepest": 0.0, "held": 0.0, "slope": 0.0, "in_wall": 0.0} | run
-    scaling, flat = Scaling(impact, 1.0), np.zeros(places.size)
-    shape = SimpleNamespace(s=places, y=flat - 1.0, velocity_y=flat, wall_y=flat, wall_slope=flat, slender=slender)
-    record = {"time": [0.0, 1.0], "y": [flat - 1.0, flat - 1.0 + 2.0 * np.isclose(places, parts["in_wall"])]}
-    record["slope"] = [flat, flat - parts["slope"]]
+    scaling, flat, time = Scaling(impact, 1.0), np.zeros(places.size), np.linspace(0.0, 1.0, run.get("instants", 2))
+    shape = {name: flat + run.get(name, 0.0) for name in ("velocity_y", "wall_y", "wall_slope")}
+    shape = SimpleNamespace(s=places, y=flat - 1.0, slender=slender, **shape)
+    record = {"time": time, "y": [2.0 * np.isclose(places, parts["in_wall"]) - 1.0], "slope": [flat - parts["slope"]]}
     stepping = SimpleNamespace(
         segments=[SimpleNamespace(length=0.2), SimpleNamespace(length=parts["step"])],
-        settling=SimpleNamespace(unsettled=parts["unsettled"], cycles=parts["cycles"], steps=1000),
+        settling=SimpleNamespace(unsettled=parts["unsettled"], cycles=parts["cycles"], steps=1000) if settles else None,
         chosen=SimpleNamespace(mesh_given=given),
         layout=SimpleNamespace(places=places, half_length=half_length, scaling=scaling),
         run=SimpleNamespace(
@@ -32,8 +33,10 @@ def stated(*, impact=IMPACT, places=PLACES, given=True, half_length=40.0, lost=0
             beam=SimpleNamespace(shape=shape), contact=SimpleNamespace(contact_s=places[:80]),
         ),
     )  # fmt: skip
-    initial = {"kinetic_energy": np.full(3, 3.0), "strain_energy": np.full(3, 1.0)}
-    books = history_of([0.0, 0.5, 1.0], [0.0, 1.0], loss_impact=np.array([0.0, 1.0, 1.0 - lost]), **initial)
+    books = history_of(
+        [0.0, 0.5, 0.7, 1.0], [0.0, 1.0], loss_impact=np.array([0.0, 1.0, 1.0 - lost, 1.0]),
+        kinetic_energy=np.full(4, 3.0), strain_energy=np.full(4, 1.0),
+    )  # fmt: skip
     return warnings_of_run(stepping, books)
 
 
@@ -56,6 +59,9 @@ def graded(growth, first=0.05):
         ({"places": graded(1.0215), "given": False}, {"places": graded(1.0215)}, "an element"),
         ({"slope": 0.099}, {"slope": 0.101}, "slopes up to 0.1: linear theory"),
         ({"slope": 0.099, "slender": False}, {"slope": 0.101, "slender": False}, "the model's slopes reach 0.1"),
+        ({"slope": 0.12, "wall_slope": 0.03}, {"slope": -0.08, "wall_slope": 0.03}, "slopes up to 0.11"),
+        ({"in_wall": 8.1, "velocity_y": 1.1}, {"in_wall": 8.1, "velocity_y": 0.9}, "outside the zone"),  # freely, too
+        ({"in_wall": 8.1, "wall_y": -1.1}, {"in_wall": 8.1, "wall_y": 1.1}, "outside the zone given contact points"),
         ({"in_wall": 8.0}, {"in_wall": 8.1}, "outside the zone given contact points"),  # to 7.9, and an element
     ],
 )
@@ -82,3 +88,10 @@ def test_the_bending_length_of_the_front_needs_three_elements_at_both_times(near
     """It is 1 Λ at the end time, with the front at 2 Λ, and √0.1 of both at a tenth of it."""
     said = stated(places=np.concatenate([np.arange(0.0, 1.0, near), np.arange(1.0, 40.0, far)]), given=False)
     assert len(said) == len(says) and all(text in line for text, line in zip(says, said))
+
+
+def test_one_instant_says_nothing_of_a_front_and_a_stop_has_none() -> None:
+    coarse = np.linspace(0.0, 40.0, 41)
+    assert stated(places=coarse, instants=1) == stated(places=coarse, settles=False, instants=1) == []
+    stop = IMPACT.replace(wall_from=0.0, wall_to=0.0)
+    assert "bending length" in stated(places=coarse)[0] and stated(places=coarse, impact=stop) == []
