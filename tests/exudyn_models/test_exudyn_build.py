@@ -88,6 +88,9 @@ def test_items_are_in_si_units_and_sensors_agree_with_one_another():
     model, read = solved(STEEL, mesh=UniformMesh(0.015), save=1500)
     cable, node = model.mbs.GetObject(model.bodies[0]), model.mbs.GetNode(model.nodes[-1])
     assert (cable["bendingStiffness"], cable["massPerLength"]) == pytest.approx((2.1e3, 1.6))
+    pulled, stretched = STEEL.replace(axial_force=50.0), GeometricallyExact(axial_stiffness=4e6)  # N
+    pulled = exudyn_models.build(pulled, mesh=UniformMesh(0.015), element=stretched)
+    assert pulled.mbs.GetObject(pulled.bodies[0])["axialStiffness"] == pytest.approx(4e6)
     assert cable["length"] == pytest.approx(0.015) and node["referenceCoordinates"][0] == pytest.approx(1.5)
     assert node["initialVelocities"][1] == pytest.approx(STEEL.velocity * model.scale)
     contact = model.mbs.GetObject(model.contacts[1])
