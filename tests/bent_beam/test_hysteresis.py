@@ -23,7 +23,7 @@ def test_a_steel_rod_of_20_mm_and_2_m_sounds_at_23_hertz() -> None:
 
 @pytest.mark.parametrize("loss", [1e-4, 0.1, 0.3, 1.0])
 @pytest.mark.parametrize("times", [1.1e-3, 1.0, 9e5])
-def test_the_loss_is_constant_within_a_tenth_over_its_range_and_holds_with_the_modulus_where_it_is_asked(loss, times):
+def test_the_loss_is_constant_within_3_percent_over_its_range_and_holds_with_the_modulus_where_it_is_asked(loss, times):
     impact = lossy(loss, times)
     branches = branches_of(impact)
     assert np.all(branches.shares >= 0.0)
@@ -34,7 +34,7 @@ def test_the_loss_is_constant_within_a_tenth_over_its_range_and_holds_with_the_m
     storage = branches.relaxed * (1.0 + (branches.shares * wt**2 / (1.0 + wt**2)).sum(axis=1))
     lost = branches.relaxed * (branches.shares * wt / (1.0 + wt**2)).sum(axis=1)
     assert np.abs(lost / storage / loss - 1.0).max() == pytest.approx(branches.deviation, rel=0.05)
-    assert branches.deviation < 0.1
+    assert branches.deviation < (0.01 if loss <= 0.1 else 0.03)
     assert storage[-1] == pytest.approx(1.0, rel=1e-6) and lost[-1] == pytest.approx(loss, rel=1e-3)
 
 
