@@ -60,6 +60,9 @@ def main(words: Sequence[str] | None = None) -> int:
     for path in PATHS if asked.path is None else (asked.path,):
         random = np.random.default_rng(asked.seed)
         found = [one for one in (judged(path, random) for _ in range(asked.runs)) if one is not None]
+        if not found:
+            print(f"{path}: every run was refused", flush=True)
+            exceeded = True
         for kind in sorted({one.path for one in found}):
             for name, limit in (OF_ALL | LIMITS.get(kind, ELSEWHERE)).items():
                 values = [value for one in found if one.path == kind and (value := getattr(one, name)) is not None]
