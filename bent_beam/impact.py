@@ -18,6 +18,9 @@ import dataclasses
 import math
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from bent_beam.checks import LARGEST, non_negative, positive
 from bent_beam.errors import InputError
 from bent_beam.hysteresis import check_loss
@@ -27,6 +30,7 @@ from bent_beam.scales import Scales
 ENDLESS = 1e30  # time, and change of the free motion by the loads, in the problem's own units
 WAVES_FELT = 0.005  # T*: until then waves from the ends change the impulse by 1 % at most, of flat contacts by more
 BEFORE_WAVES_RETURN = 0.01  # T*: the earliest that they change the impulse by 2 %
+ROUND_OFF = 1e-9  # of the length: a place so near an edge of the wall lies on it
 SCALES = ("wave_constant", "time_scale", "length_scale", "slow_time_scale", "epsilon")
 GROUPS = ("epsilon_alpha", "epsilon_chi", "epsilon_psi", "epsilon_axial", "relative_damping", "kappa_over_nu")
 NOT_HELD = ("rotation", "curvature_rate", "fourth_derivative")  # motions that a support does not allow
@@ -103,6 +107,11 @@ class Impact(Scales):
     def unsheared(self) -> Impact:
         """The same of Euler and Bernoulli's beam."""
         return self.replace(shear_stiffness=None, rotary_inertia=0.0)
+
+    def before_wall(self, x: NDArray[np.float64]) -> NDArray[np.bool_]:
+        """Which of the places x, m from the middle, are before the wall; round-off at an edge counts as before it."""
+        (begin, end), near = self.wall_span, ROUND_OFF * self.length
+        return np.asarray((x >= begin - near) & (x <= end + near))
 
     def checked_end_time(self, end_time: float | None = None) -> float:
         """``end_time`` (s) of a simulation, or ``ValueError`` when it is out of all proportion to t*. ``None``: 0.1 t*,

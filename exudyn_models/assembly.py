@@ -36,7 +36,7 @@ MODELLED = ("acceleration", "curvature_rate", "fourth_derivative", "axial_force"
 STRETCH = 1e-4  # largest strain under the axial force in the linear limit: lengths are then right to as much
 TAUT = 1e4  # EAΛ²/EI under it: the stretch then moves the front by 7e-4 of what the force itself does (κ/ν = 0.5)
 STRETCH_LATER = 1e-6  # likewise once waves are back: with 1e-4 the impulse is 1e-3 off, with 1e-7 round-off shows
-NEAR = 1e-9  # of the length: a node so near an edge of the wall lies on it
+NEAR = 1e-9  # of the half length: a place so near the end lies there
 GREY = [0.35, 0.35, 0.35, 1.0]
 
 
@@ -154,9 +154,7 @@ def _axial_stiffness(asked: float | None, true: bool, scaling: Scaling) -> float
 def _wall(beam: Beam, chosen: Chosen) -> Wall:
     scaling, s, explicit = beam.scaling, beam.shape.s, chosen.integrator.explicit
     impact = scaling.impact
-    centre, near = int(np.argmin(np.abs(s))), NEAR * impact.length / scaling.length
-    begin, end = (edge / scaling.length for edge in impact.wall_span)
-    before = (s >= begin - near) & (s <= end + near)
+    centre, before = int(np.argmin(np.abs(s))), impact.before_wall(s * scaling.length)
     free = before & ((s > s[0]) | (s[0] == 0.0) | (impact.left_end == "free"))
     free &= (s < s[-1]) | (impact.right_end == "free")
     lengths = np.where(before[1:] & before[:-1], np.diff(s), 0.0)

@@ -52,7 +52,6 @@ from hermite_fe.maxwell import branches_at_rest
 from hermite_fe.system import NO_BRANCHES, Bending, ContactRows, System
 
 CONSISTENT = ConsistentMass()
-NEAR = 1e-9  # of the length: a node so near an edge of the wall lies on it
 HELD = {"free": 0, "hinged": 1, "clamped": 2}  # dofs of the end node
 MODELLED = ("acceleration", "curvature_rate", "fourth_derivative", "axial_force", "rotation", "hysteretic_loss",
             "shear_stiffness", "wall_stiffness", "wall_damping", "wall_clearance", "wall_from", "wall_to", "left_end",
@@ -203,11 +202,11 @@ def before_the_wall(rows: ContactRows, impact: Impact, supports: tuple[int, ...]
 
     Raises ``ValueError`` where there is none, as before a stop where contact is not at nodes.
     """
-    (begin, end), near = impact.wall_span, NEAR * impact.length
-    kept = (rows.places >= begin - near) & (rows.places <= end + near)
+    kept = impact.before_wall(rows.places)
     if rows.dofs.shape[1] == 1:
         kept &= ~np.isin(rows.dofs[:, 0], supports)
     if not kept.any():
+        begin, end = impact.wall_span
         raise InputError(
             f"wall_from: no contact point stands before the wall from {begin!r} to {end!r} m; take contact.kind = node"
         )
@@ -218,9 +217,8 @@ def springs_of(impact: Impact, beam: HermiteBeam, facing: Array, side: float = 1
     """The springs of a wall that gives way; of a stop in the middle of a half beam, half of them."""
     if impact.wall_stiffness is None:
         return NO_SPRINGS
-    (begin, end), near = impact.wall_span, NEAR * impact.length
-    inside = np.flatnonzero((beam.nodes >= begin - near) & (beam.nodes <= end + near))
-    first, last = int(inside[0]), int(inside[-1])
+    first, last = (int(at) for at in np.flatnonzero(impact.before_wall(beam.nodes))[[0, -1]])
+    begin, end = impact.wall_span
     share = 0.5 if begin == end and not full else 1.0
     return Springs(
         stiffness=share * impact.wall_stiffness,

@@ -17,6 +17,7 @@ shear they may also be the sections' turning, or zero; the first equation takes 
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -153,15 +154,19 @@ def _residual(residual: Array, impulse: Array) -> float | None:
 
 def _missing_momentum(history: ImpactHistory) -> list[Array]:
     """N s at each instant, slopes by differences and, where the beam shears, straight and by its sections' turning.
-    Nothing where supports or an absorbing layer act, and where ends that follow pull at a tangent that turns."""
+    Nothing where supports or an absorbing layer act, where ends that follow pull at a tangent that turns, and where a
+    free end loses its rate of curvature within less than an element: it does so along √(ct)."""
     impact, motion = history.impact, history.impact.free_motion(0.0)
     turned = impact.fourth_derivative or impact.curvature_rate
     if impact.supported or not _is_whole(history) or (impact.axial_force and turned and _ends_follow(history)):
         return []
+    x, reached = history.positions(0), math.sqrt(impact.wave_constant * history.time[-1])
+    if impact.curvature_rate and not _ends_follow(history) and x[-1] - x[-2] > reached:
+        return []
     load = impact.load_within(0.5 * _length(history))
     if _ends_follow(history):
         load -= impact.bending_stiffness * float(motion(0.0, by_x=4)) * _length(history)
-    x, velocity, given = history.positions(0), history.array("velocity"), load * history.time
+    velocity, given = history.array("velocity"), load * history.time
     slopes: list[Array | None] = [None]
     if "angular_velocity" in history:
         slopes += [np.zeros_like(velocity), history.array("angular_velocity")]
