@@ -253,19 +253,6 @@ def test_a_beam_arrives_unbent_under_an_axial_force(element):
     assert history.array("strain_energy")[0] < 1e-12 and history.array("largest_moment")[0] < 1e-9
 
 
-@pytest.mark.parametrize(("end", "refine"), [(0.005, 0.25), pytest.param(0.1, 1.0, marks=verify)])
-def test_a_very_small_axial_force_changes_nothing(end, refine):
-    """Its stiff bar has a round-off far above the residual of an unpulled beam."""
-    beam, method = Impact.whole_beam(2.0), ExudynModel(refine=refine)
-    pulled, free = (method.simulate(beam.replace(axial_force=n), end_time=end, save=5) for n in (1e-8, 0.0))
-    assert pulled.array("total_impulse")[-1] == pytest.approx(free.array("total_impulse")[-1], rel=1e-6)
-
-
-def test_an_axial_stiffness_may_be_given_beside_an_axial_force_however_small():
-    weak = Impact.whole_beam(2.0).replace(axial_force=1e-8)
-    assert ExudynModel(element=ANCFCable(axial_stiffness=1.0)).refuses(weak) is None
-
-
 @pytest.mark.parametrize(
     ("damping", "force", "end", "within", "fastest"),
     [
@@ -299,12 +286,3 @@ def test_what_no_theory_of_a_zone_needs_is_left_alone():
     history = exudyn_models.simulate(zone, mesh=mesh, end_time=0.1, save=5)
     assert history.array("gap")[-1].min() < -1.0  # of what would be inside the wall without one, and far away
     assert history.contact_positions(-1).max() == pytest.approx(1.5 * math.sqrt(2.0 * 0.1 / 0.3), rel=0.1)
-
-
-@verify
-def test_a_real_beam_under_tension_gives_the_impulse_of_the_linear_limit():
-    impact = Impact.dimensionless(0.5, epsilon_axial=20.0, epsilon_alpha=-10.0).replace(section_height=1e-2)
-    end = 1e-3
-    kinds = LinearLimit(), TrueGeometry()
-    linear, true = (exudyn_models.simulate(impact, end_time=end, geometry=g, save=50) for g in kinds)
-    assert true.array("total_impulse")[-1] == pytest.approx(linear.array("total_impulse")[-1], rel=5e-3)

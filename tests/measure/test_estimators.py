@@ -21,7 +21,6 @@ from bent_beam.measure.estimators import (
 )
 from bent_beam.measure.moments import Moments, first_front, local_front, moments, one_side
 from bent_beam.measure.numbers import FACTOR, Number
-from bent_beam.measure.reduction import peak_moment
 from comparison.compare import compare_histories
 from theory import contact_parameters
 
@@ -236,72 +235,12 @@ def test_a_zone_that_should_lift_and_does_not_widens_the_error_bars():
         assert high - low == pytest.approx((2.0 * 0.3 * 0.03 + more) * abs(free.r1.known), rel=1e-3)
 
 
-@pytest.mark.parametrize("with_slope", [True, False])
-@pytest.mark.parametrize("natural", [None, 0.1])
-def test_the_moment_of_a_cubic_is_exact_and_the_peak_is_where_it_is_largest(with_slope, natural):
-    """y = t(ax² + bx³) against a curved wall: M = EI(t(2a + 6bx) + K₀); the first saved instant does not count, the
-    second does."""
-    a, b, stiffness, wall = 0.3, 0.2 if with_slope else 0.0, 2.5, 0.05  # differences are exact for a parabola
-    impact = Impact(stiffness, 1.0, 4.0, 0.2, 1.0, wall_curvature=wall, natural_curvature=natural)
-    time, x = np.array([9.0, 1.0, 3.0, 2.0]), np.array([0.0, 0.3, 0.7, 1.2, 2.0])
-    y = np.outer(time, a * x**2 + b * x**3)
-    slope = {"slope": np.outer(time, 2 * a * x + 3 * b * x**2)} if with_slope else {}
-    history = history_of(np.arange(4.0), x, impact=impact, gap=-y - 0.5 * wall * x**2, **slope)
-    exact = stiffness * (np.multiply.outer(time, 2 * a + 6 * b * x) + (0.2 if natural is None else natural))
-    found, place = history.bending_moments(slice(None))
-    assert found[..., 0] == pytest.approx(exact[:, :-1], rel=1e-12)
-    assert found[..., 1] == pytest.approx(exact[:, 1:], rel=1e-12)
-    assert history.bending_moments(2)[0] == pytest.approx(found[2], rel=1e-15)
-    assert np.all(place == np.stack([x[:-1], x[1:]], axis=1))
-    assert history.moment == pytest.approx(np.abs(exact).max(axis=1), rel=1e-12)
-    peak = peak_moment(history)
-    assert peak.time == 2.0
-    if with_slope:
-        assert peak.place == 2.0
-    assert peak_moment(history, until=1.0).moment == pytest.approx(exact[1, -1], rel=1e-12)
-    assert peak.moment == pytest.approx(exact[2, -1], rel=1e-12)
-    assert peak.midspan == pytest.approx(exact[2, 0], rel=1e-12)
-    assert peak_moment(history, until=0.0) == (0.0, 0.0, 0.0, 0.0)  # there is none before the impact
-
-
 def test_a_pressure_that_comes_and_goes_with_the_saved_instants_is_told_by_its_mean():
     """2 on points within 0.6, 0.01 apart, in every other interval."""
     x, time = np.linspace(0.0, 1.0, 101), np.linspace(0.0, 1.0, 401)
     impulse = np.outer(0.01 * np.cumsum(np.arange(401) % 2) * 2.0 / 400.0, x < 0.6)
     found = moments(history_of(time, x, impulse=impulse, total_impulse=2.0 * impulse.sum(axis=1))).pressure
     assert found[100:] == pytest.approx(1.0, rel=0.02)
-
-
-def test_moments_of_a_mesh_that_moves_stand_where_its_nodes_are_then():
-    time, x = np.array([0.0, 1.0, 4.0]), np.array([0.0, 0.3, 0.7, 1.2])
-    position = np.multiply.outer(np.sqrt(time) + 1.0, x)
-    bent = {"gap": -0.3 * position**2, "slope": 0.6 * position}
-    history = history_of(time, x, impact=Impact(2.5, 1.0, 4.0, 0.2, 1.0), position=position, **bent)
-    found, place = history.bending_moments(2)
-    assert found == pytest.approx(2.5 * (0.6 + 0.2), rel=1e-12) and np.all(place[:, 1] == position[2, 1:])
-    for k in (-1, np.int64(2)):
-        assert np.array_equal(history.bending_moments(k), (found, place))
-
-
-@pytest.mark.parametrize("nodes", [(-2.0, -0.3, 0.5, 2.0), (-2.0, -0.3, 0.0, 0.5, 2.0)])
-def test_the_moment_in_the_middle_needs_no_node_there(nodes):
-    """y = t(ax² + bx³) at two instants: M(0) = EI(2at + K₀), of a limber beam."""
-    x, time = np.array(nodes), np.array([0.0, 1.0, 3.0])
-    gap, slope = -np.outer(time, 0.3 * x**2 + 0.2 * x**3), np.outer(time, 0.6 * x + 0.6 * x**2)
-    history = history_of(time, x, impact=Impact(2.5e-3, 1.0, 4.0, 0.2, 1.0), symmetry="full", gap=gap, slope=slope)
-    peak = peak_moment(history)
-    assert peak.midspan == pytest.approx(2.5e-3 * (3.0 * 0.6 + 0.2), rel=1e-12)
-    assert peak.moment == pytest.approx(2.5e-3 * (3.0 * (0.6 + 1.2 * 2.0) + 0.2), rel=1e-12)  # at x = 2
-
-
-def test_the_moment_in_the_middle_is_that_of_the_element_there() -> None:
-    """y = (|x| − 5 cm)³ beyond 5 cm: no moment in the middle."""
-    x, time = np.array([-0.2, -0.05, 0.05, 0.2]), np.array([0.0, 1.0])
-    beyond, one = np.maximum(np.abs(x) - 0.05, 0.0), np.array([[0.0], [1.0]])
-    bent = {"gap": -one * beyond**3, "slope": one * 3.0 * np.sign(x) * beyond**2}
-    impact = Impact(1.0, 1.0, 0.4, 0.2, 1.0, natural_curvature=0.0)
-    found = peak_moment(history_of(time, x, impact=impact, symmetry="full", **bent))
-    assert (found.moment, found.midspan) == (pytest.approx(6.0 * 0.15), pytest.approx(0.0, abs=1e-12))
 
 
 def test_one_run_saved_at_other_times_and_further_is_the_same_run():

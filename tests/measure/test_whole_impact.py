@@ -1,25 +1,17 @@
 """The whole impact, from the first touch to the last separation: restitution, momentum, hits, energy."""
 
 import dataclasses
-import math
-from itertools import pairwise
-from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 import pytest
 from histories import history_of, pushed_until
 
 from bent_beam.as_json import json_text
-from bent_beam.free_flight import LOWEST_PERIOD, Separation, cannot_return, has_left, may_return
 from bent_beam.history import ImpactHistory
-from bent_beam.hysteresis import branches_of
 from bent_beam.impact import Impact
 from bent_beam.measure.reduction import peak_moment
 from bent_beam.measure.whole_impact import hits, peak_times, pushes, whole_impact
 from bent_beam.meshes import UniformMesh
-from bent_beam.method import simulate_to_separation
-from exudyn_models import ExudynModel
 from hermite_fe import HermiteFE
 from hermite_fe.integrators import MoreauJean, NonsmoothGeneralizedAlpha, SignoriniPosition
 from theory.stopped_beam import StoppedBeam
@@ -199,58 +191,6 @@ def test_a_moment_counts_once_a_wave_has_passed_ten_of_the_shortest_elements() -
     assert peak_moment(recorded(time[few], impulse[few], x=x, impact=impact, **moments)).moment == 0.9
 
 
-def test_a_beam_that_has_left_does_not_return_and_one_that_swings_as_wide_as_it_is_away_may() -> None:
-    impact, method = Impact.whole_beam(0.5, relative_damping=1e-2), HermiteFE(mesh=UniformMesh(1.0 / 25))
-    history = method.simulate_to_separation(impact)
-    assert has_left(history)
-    later = method.for_whole_beam(impact).simulate(impact, end_time=3.0, save=200)
-    assert later.array("total_impulse")[-1] == pytest.approx(history.array("total_impulse")[-1], rel=1e-6)
-    plain: Any = SimpleNamespace(simulate=method.for_whole_beam(impact).simulate)  # no way of its own to a separation
-    whole = simulate_to_separation(plain, impact, save=100)
-    assert whole.time[-1] > (whole_impact(whole).last_contact + LOWEST_PERIOD) * impact.slow_time_scale
-    x, u = np.linspace(0.0, 1.0, 101), np.linspace(0.0, 1.0, 2001)
-    flat, up, rigid = 0.5 * 2.0 * x**2, -0.5 * np.ones_like(x), 0.5 * 2.0 * 0.5**2
-    # unit force on an end, held by inertia: Q = 3u² − 2u, M = Lu²(u − 1), L = 2; what the end yields by
-    bends, shears = 8.0 * np.trapezoid((u**3 - u**2) ** 2, u), 2.0 * np.trapezoid((3.0 * u**2 - 2.0 * u) ** 2, u)
-    lossy = Impact.whole_beam(2.0).replace(hysteretic_loss=0.1, loss_frequency=1.0)
-    for impact, yields in (
-        (Impact.whole_beam(2.0), bends),
-        (Impact.whole_beam(2.0).replace(bending_stiffness=3.0), bends / 3.0),
-        (Impact.whole_beam(2.0, shear_length=0.5), bends + 0.25 * shears),
-        (lossy, bends / branches_of(lossy).relaxed),  # held long enough
-    ):
-        reach = math.sqrt(2.0 * 0.1 * yields)
-        assert cannot_return(impact, x, flat + 1.01 * reach, up, rigid + 0.1)
-        assert not cannot_return(impact, x, flat + 0.99 * reach, up, rigid + 0.1)
-        assert not cannot_return(impact, x, flat + 1.01 * reach, -up, rigid + 0.1)
-        assert not cannot_return(impact.replace(acceleration=1.0), x, flat + 9.0, up, rigid)
-    assert not may_return(history) and may_return(history.until(0.7))
-
-
-def test_tension_brings_a_hinged_beam_back_and_a_load_off_the_wall_brings_none_back() -> None:
-    pendulum = Impact.whole_beam(1.0).replace(
-        curvature=0.0, left_end="hinged", wall_from=0.5, wall_to=0.5, wall_stiffness=9.0
-    )
-    back = (pendulum.replace(axial_force=1.0), pendulum.replace(acceleration=1.0))
-    impacts = (*back, pendulum, Impact.whole_beam(0.5).replace(acceleration=-0.1))
-    stands: list[Any] = [SimpleNamespace(impact=impact) for impact in impacts]
-    assert [may_return(one) for one in stands] == [True, True, False, False]
-
-
-def test_a_beam_that_turns_comes_back_with_the_end_that_turns_to_the_wall_faster_than_it_leaves() -> None:
-    x, impact = np.linspace(-1.0, 1.0, 401), Impact.whole_beam(2.0)
-    bow, up, spin = 0.5 * 2.0 * x**2, 0.5, 0.3
-    for turns, back in ((0.99 * up, False), (1.01 * up, True), (-1.01 * up, True)):
-        energy = 0.5 * 2.0 * (up**2 + turns**2 / 3.0)
-        assert cannot_return(impact, x, bow + 0.2 + 0.1 * x, -up - turns * x, energy) != back
-    energy = 0.5 * 2.0 * (up**2 + spin**2 / 3.0)
-    for share in (0.99, 1.01):  # 0.1 J beyond that of its flight and turning bend its ends by √(2·0.1·L³/105)
-        reach = share * math.sqrt(0.2 * 8.0 / 105.0)
-        assert cannot_return(impact, x, bow + reach, -up - spin * x, energy + 0.1) == (share > 1.0)
-    for tilt, back in ((0.88, False), (0.9, True)):  # a tilted bow of this height is at the wall from √0.8 on
-        assert cannot_return(impact, x, bow + 0.2 + tilt * x, -up - spin * x, energy) != back
-
-
 def test_breaks_shorter_than_the_shortest_separation_are_none() -> None:
     impulse, time = np.array([0.0, 1.0, 2.0, 2.0, 3.0, 3.0, 3.0, 3.0, 4.0, 4.0]), np.arange(10.0)
     assert pushes(time, impulse, 0.5) == [(0, 2), (3, 4), (7, 8)]
@@ -259,56 +199,6 @@ def test_breaks_shorter_than_the_shortest_separation_are_none() -> None:
     assert pushes(time, np.zeros(10), 1.0) == []
     with pytest.raises(ValueError, match="before the wall was touched"):
         whole_impact(pushed_until(0.0))
-
-
-def between_walls(path: Any, elements: int, kappa: float, damping: float, distance: float, end: float) -> ImpactHistory:
-    impact = Impact.whole_beam(kappa, relative_damping=damping).replace(opposite_wall=distance)
-    method = path(mesh=UniformMesh(1.0 / elements)).for_whole_beam(impact)
-    return method.simulate(impact, end_time=end, save=np.linspace(0.0, end, round(400 * end) + 1)[1:])
-
-
-@pytest.mark.parametrize(
-    ("path", "asked", "least", "closes"),
-    [
-        (HermiteFE, (20, 0.5, 1e-2, 0.6, 6.0), 3, 1e-9),
-        pytest.param(HermiteFE, (40, 1.5, 1e-3, 1.0, 60.0), 10, 1e-6, marks=slow),
-        pytest.param(ExudynModel, (10, 1.5, 1e-3, 1.0, 80.0), 10, 1e-3, marks=slow),
-    ],
-)
-def test_each_hit_between_two_walls_gives_the_beam_its_impulse(path, asked, least, closes):
-    history = between_walls(path, *asked)
-    found = hits(history)
-    assert len(found) >= least and [hit.wall for hit in found[:2]] == ["front", "opposite"]
-    after = [1.0, *(hit.after for hit in found)]
-    for before, hit, now in zip(after, found, after[1:]):
-        sign = -1.0 if hit.wall == "front" else 1.0
-        assert 2.0 * (now - before) == pytest.approx(sign * hit.impulse, rel=1e-6, abs=1e-9)
-        assert hit.lost > -1e-9
-    assert max(hit.moment for hit in found) == peak_moment(history).moment > 1.01 * min(hit.moment for hit in found)
-    assert sum(hit.lost for hit in found) < 1.0 and abs(history.energy_budget()["defect"]) < closes
-    if path is HermiteFE:
-        gap = history.array("gap")
-        assert (gap.min(), gap.max()) == pytest.approx((0.0, history.impact.opposite_wall), abs=5e-3)
-
-
-def test_of_hits_that_overlap_each_has_the_largest_moment_of_its_own_time() -> None:
-    impact = Impact.whole_beam(0.5, relative_damping=1e-2).replace(opposite_wall=0.26, wall_stiffness=20.0)
-    history = HermiteFE(mesh=UniformMesh(0.1)).for_whole_beam(impact).simulate(impact, end_time=4.0, save=400)
-    found = hits(history)
-    assert any(one.end > other.begin for one, other in pairwise(found))
-    for hit, until in zip(found, [*(hit.begin for hit in found[1:]), 4.0]):
-        within = (history.time > hit.begin) & (history.time <= max(hit.end, until))
-        assert hit.moment == pytest.approx(history.moment[within].max(), rel=0.02)  # the last is cut at its middle
-    assert found[0].moment < 0.7 * peak_moment(history).moment
-
-
-@slow
-def test_both_paths_give_the_first_hits_between_two_walls_alike() -> None:
-    """Later ones are not comparable: which part of a vibrating beam meets a wall when is chaotic."""
-    hermite, exudyn = (hits(between_walls(path, 50, 1.5, 1e-2, 1.0, 6.0))[:3] for path in (HermiteFE, ExudynModel))
-    for one, other in zip(hermite, exudyn, strict=True):
-        assert one.wall == other.wall and one.impulse == pytest.approx(other.impulse, rel=5e-3)
-        assert (one.after, one.lost) == pytest.approx((other.after, other.lost), abs=5e-3)
 
 
 def test_the_largest_force_is_told_in_half_the_beams_momentum_a_period() -> None:
@@ -329,17 +219,6 @@ def test_the_largest_push_of_a_wall_that_gives_way_lies_between_saved_instants()
     fine, coarse = (whole_impact(method.simulate(impact, end_time=0.3, save=save)) for save in saved)
     assert coarse.push == pytest.approx(fine.push, rel=2e-4)
     assert coarse.push - coarse.push_rise < (1.0 - 1e-3) * fine.push
-
-
-def test_a_run_is_over_a_period_of_the_lowest_mode_after_its_last_push() -> None:
-    over = Separation(Impact.whole_beam(2.0))  # T* = 1
-    x = np.linspace(0.0, 1.0, 5)
-    gone = (x, 1.0 + x**2, -np.ones(5), 1.0)  # as laid, one half beam away, at the velocity of all its energy
-    assert not over(0.0, 0.0, lambda: gone) and not over(5.0, 0.0, lambda: gone)  # it has not touched yet
-    assert not over(6.0, 1.0, lambda: gone)
-    assert not over(6.0 + 0.99 * LOWEST_PERIOD, 1.0, lambda: gone)
-    assert over(6.0 + 1.01 * LOWEST_PERIOD, 1.0, lambda: gone)
-    assert not over(8.0, 1.0, lambda: gone, closed=True)
 
 
 def test_the_last_contact_is_half_a_saved_interval_about_its_end_or_before_springs_one() -> None:
