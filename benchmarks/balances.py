@@ -6,8 +6,8 @@ Sixty runs of each path with its defaults, drawn at random: κ/ν log-uniform fr
 whole damped beams until they have left, of which half shear, by another coin, with shear lengths log-uniform from 0.005
 to 0.1 half lengths; the others infinite beams until 0.1 t*, with α and χ of -0.5, 0 or 0.5 each (the self-similar path:
 infinite ones alone). A run that warns of itself, as of a front that left the fine part of the mesh, is not sound and
-is left out. Prints the worst of each check and its limit; fails where a run exceeds it, and where fewer than half of them
-are left.
+is left out. Prints the worst of each check and its limit; fails where a run exceeds it, and where fewer than half of
+them are left.
 """
 
 from __future__ import annotations

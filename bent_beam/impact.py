@@ -113,6 +113,17 @@ class Impact(Scales):
         (begin, end), near = self.wall_span, ROUND_OFF * self.length
         return np.asarray((x >= begin - near) & (x <= end + near))
 
+    @property
+    def damping_at_landing(self) -> float:
+        """Force over velocity of the wall's dashpots where all of a stop (N s/m), or of a plate along a straight beam
+        (N s/m²), lands at once: c, as the beam has not slowed down yet. Without damping of its own a beam that shears
+        slows down at once at a stop: it sends off shear waves, F = c(V − F/(2√(κ_sGA μ))), half as many at an end."""
+        c, (begin, end) = self.wall_damping, self.wall_span
+        if begin != end or self.shear_stiffness is None or self.damping or self.hysteretic_loss:
+            return c
+        waves = 1.0 if abs(begin) >= self.half_length * (1.0 - ROUND_OFF) else 2.0
+        return c / (1.0 + c / (waves * math.sqrt(self.shear_stiffness * self.mass_per_length)))
+
     def checked_end_time(self, end_time: float | None = None) -> float:
         """``end_time`` (s) of a simulation, or ``ValueError`` when it is out of all proportion to t*. ``None``: 0.1 t*,
         the longest time that the thesis computes, but 0.01 T* at most: then waves come back from the ends and what is

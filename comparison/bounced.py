@@ -163,7 +163,7 @@ class Bounce:
                 back = "the beam comes back" if self.outcome.again else "the beam may come back"
             found.append(
                 f"{back} to the wall; these numbers are those of the first hit, later ones may be larger: "
-                "bentbeam bounce --hits 3 lists three"
+                "bentbeam bounce --hits 3 lists them"
             )
         return [*found, *told_by(self.in_si, self.case.section), *self.runs.warnings, *others]
 

@@ -160,6 +160,7 @@ def numbers_of(
     """
     found, extra, least = dict[str, Number](), known or {}, LEAST_LIGHT if _is_light(runs.question) else LEAST
     scattered = runs.question.late and not converges(runs.question.impact)
+    scales = _scales_of_rebound(runs.run.reading)
     for name in names:
         value = runs.run.reading[name]
         others = {cause: run.reading[name] for cause, run in runs.companions.items()}
@@ -168,8 +169,18 @@ def numbers_of(
             parts = {"no_damping": 2.0 * statistics.stdev(values), **extra.get(name, {})}
             found[name] = Number(statistics.fmean(values), sum(parts.values()), parts=parts)
         else:
-            found[name] = number_of(value, others, extra.get(name), least=least)
+            scale = max(scales.get(name, 0.0) / abs(value), 1.0) if value else 1.0
+            found[name] = number_of(value, others, extra.get(name), least=least * scale)
     return found
+
+
+def _scales_of_rebound(reading: Mapping[str, Any]) -> dict[str, float]:
+    """Of what :data:`LEAST` is a share where a number is a small difference: J = (1 + e)mV is not known better, and the
+    energies are as e² says."""
+    if not (e := reading.get("restitution")):
+        return {}
+    energy = 2.0 * abs((1.0 + e) / e) * reading["translation"]
+    return {"restitution": abs(1.0 + e), "translation": energy, "vibration": energy}
 
 
 def unseen_of_moment(runs: Runs) -> dict[str, float]:

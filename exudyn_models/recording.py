@@ -201,22 +201,22 @@ class Recorder:
     def _of_contact(self, time: Array, q: Array, v: Array, force: Array, along: Array) -> dict[str, Array]:
         """Work, losses and impulses of the contact forces in each step, each (steps,)."""
         mean, contact = means(force), self.contact
-        depth = q[:, contact.coordinates] - contact.wall_y
-        deeper = np.diff(depth, axis=0)
+        deeper = np.diff(depth := q[:, contact.coordinates] - contact.wall_y, axis=0)
         pushes = mean * contact.signs * np.diff(time)[:, None]
-        pulls = np.minimum(pushes, 0.0)
-        gains = {"contact_work": products(mean, deeper), "held_impulse": pulls.sum(axis=1)}
+        gains = {"contact_work": products(mean, deeper), "held_impulse": np.minimum(pushes, 0.0).sum(axis=1)}
         if contact.along is not None:
             moved = np.diff(q[:, self.beam.horizontal[contact.nodes]], axis=0)
             gains["contact_work"] = gains["contact_work"] - products(means(along), moved)
         if contact.held_until:  # no other law pulls
-            gains |= {"pulls": -pulls, "pushes": pushes}
+            gains |= {"pulls": np.maximum(-pushes, 0.0), "pushes": pushes}
         if contact.wall_springs is not None:
-            deepest = np.maximum(depth, 0.0).max(axis=1)
-            wall, speed = self.scaling.impact, v[:, contact.coordinates]
-            delay = wall.wall_damping / (wall.wall_stiffness or math.inf) / self.scaling.end_time  # c/k
-            pressure = np.where(depth > 0.0, depth + delay * speed, 0.0).max(axis=1)  # over k
-            self._keep_largest("peaks", force.sum(axis=1), time, deepest, pressure, anew=False)
+            s, speed = self.scaling, v[:, contact.coordinates]
+            delay = s.impact.wall_damping / (s.impact.wall_stiffness or math.inf) / s.end_time  # c/k
+            landing = np.pad(contact.landing(depth, speed), ((1, 0), (0, 0)))
+            pressure = np.maximum(np.where(depth > 0.0, depth + delay * speed, 0.0), landing / contact.wall_springs)
+            deepest, whole, landed = np.maximum(depth, 0.0).max(axis=1), force.sum(axis=1), landing.sum(axis=1)
+            when = np.where(landed > whole, np.roll(time, 1), time)  # as a step begins
+            self._keep_largest("peaks", np.maximum(whole, landed), when, deepest, pressure.max(axis=1), anew=False)
             dashpots = np.where(depth > 0.0, force - contact.wall_springs * depth, 0.0)  # also slow what would pull
             gains["loss_wall"] = products(means(dashpots), deeper)
         return gains

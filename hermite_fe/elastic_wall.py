@@ -41,7 +41,7 @@ class Springs(NamedTuple):
 
     lengths, shares : (elements,), m, and σ of shear.
     Elements ``first`` to ``last`` − 1 stand before the wall. stop : the dof of a stop, or −1.
-    side : 1 of a wall in front of the beam, −1 behind it.
+    side : 1 of a wall in front of the beam, −1 behind it. at_landing : c where all of a stop or a plate lands at once.
     """
 
     stiffness: float
@@ -53,6 +53,7 @@ class Springs(NamedTuple):
     last: int
     stop: int
     side: float = 1.0
+    at_landing: float = 0.0
 
 
 NO_SPRINGS = Springs(0.0, 0.0, np.zeros(0), np.zeros(0), np.zeros(0), 0, 0, -1)
@@ -213,6 +214,23 @@ def push(
         force[i] = pressure
         tangent[0, i] += slope
     return total, loss, touched
+
+
+@compiled_within
+def landing(springs: Springs, q: Array, new: Array, v: Array) -> tuple[float, float]:
+    """Force, N, and largest pressure at the instant at which all of a stop or plate lands at once, between q, with the
+    velocities v, and ``new``: its dashpots have it before the beam has slowed down. 0 where less of it lands."""
+    flow, fastest = 0.0, 0.0
+    for e in range(springs.first, springs.last):
+        if max(coefficients(springs, q, e)) > 0.0 or min(coefficients(springs, new, e)) <= 0.0:
+            return 0.0, 0.0
+        i, length = 2 * e, springs.lengths[e]
+        flow += length * (0.5 * (v[i] + v[i + 2]) + length / 12.0 * (v[i + 1] - v[i + 3]))
+        fastest = max(fastest, springs.side * v[i], springs.side * v[i + 2])
+    if springs.stop >= 0 and sunk(springs, q, springs.stop) <= 0.0 < sunk(springs, new, springs.stop):
+        flow = v[springs.stop]
+        fastest = springs.side * flow
+    return springs.at_landing * springs.side * flow, springs.at_landing * fastest
 
 
 @compiled

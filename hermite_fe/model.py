@@ -230,6 +230,7 @@ def springs_of(impact: Impact, beam: HermiteBeam, facing: Array, side: float = 1
         last=last,
         stop=2 * first if begin == end else -1,
         side=side,
+        at_landing=share * impact.damping_at_landing,
     )
 
 

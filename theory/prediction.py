@@ -203,7 +203,7 @@ def _check(impact: Impact) -> None:
         if getattr(impact, name) != 0.0:
             raise ValueError(
                 f"{name} must be 0 for the theory, which is symmetric about the first touch "
-                f"(got {getattr(impact, name)!r}): bentbeam bounce follows the full beam"
+                f"(got {getattr(impact, name)!r}): bentbeam bounce follows the full beam (simulate, between two walls)"
             )
 
 

@@ -16,6 +16,7 @@ RESOLVED = 10.0  # elements that a bending wave must have passed before a moment
 SMOOTH = 3.0  # elements within √(cη), c = √(EI/μ): so many follow the start of a damped beam within 3 %
 WALLS = {"front": "impulse", "opposite": "opposite_impulse"}  # the impulses of their contact points
 MAY_BE_HELD = 0.01  # of the run: while this lasts, a start may be held
+LANDING = 1e-4  # of a force that does not stand out from those beside it, as one at a landing: its least error
 
 
 class PeakMoment(NamedTuple):
@@ -52,7 +53,8 @@ def wall_peaks(history: ImpactHistory, until: float | None = None) -> WallPeaks 
     k = _instants(history, until) - 1
     names = ("peak_force", "peak_force_time", "peak_penetration", "peak_pressure")
     force, time, penetration, pressure = (float(history.array(name)[k]) for name in names)
-    return WallPeaks(force, time, penetration, pressure, _sharpness(history, time), *_pushed_at(history, time))
+    sharp = _sharpness(history, time) or LANDING * force
+    return WallPeaks(force, time, penetration, pressure, sharp, *_pushed_at(history, time))
 
 
 def _instants(history: ImpactHistory, until: float | None) -> int:

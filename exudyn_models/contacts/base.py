@@ -140,6 +140,11 @@ class ContactRun(ABC):
         """Contact forces where Exudyn's own judgement of the states stands, shape (contacts,)."""
         return self.forces(q, v)[0]
 
+    def landing(self, depth: Array, speed: Array) -> Array:
+        """Force at each contact point at the instant of a step at which all of a stop or plate lands at once, 0 in
+        other steps: (steps, contacts), of depth and speed into the wall, (steps + 1, contacts)."""
+        return np.zeros_like(depth[1:])
+
     def stored_energy(self, q: Array) -> float:
         """Energy that the contact's springs hold."""
         return 0.0

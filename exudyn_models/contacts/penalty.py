@@ -253,6 +253,12 @@ class SpringsRun(PenaltyRun):
         force, closed = super()._law(q, v)
         return force, closed & (self.depth(q) > 0.0)
 
+    def landing(self, depth: Array, speed: Array) -> Array:
+        impact = self.beam.scaling.impact
+        share = impact.damping_at_landing / (impact.wall_damping or 1.0)
+        at_once = np.all((depth[:-1] <= 0.0) & (depth[1:] > 0.0), axis=1)  # before the beam has slowed down
+        return np.where(at_once[:, None], share * self.wall.damping * self.wall.weights * speed[:-1], 0.0)
+
 
 @dataclass(frozen=True)
 class Springs(Contact):

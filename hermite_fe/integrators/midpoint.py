@@ -21,7 +21,7 @@ from hermite_fe.active_set import CYCLING, SOLVED, largest_of_a_kind, solve_free
 from hermite_fe.banded import PAD, copy, multiply
 from hermite_fe.compiled import Array, Places, compiled, compiled_within
 from hermite_fe.constraints import count_rounds
-from hermite_fe.elastic_wall import FORCE, FORCE_TIME, PENETRATION, PRESSURE, push
+from hermite_fe.elastic_wall import FORCE, FORCE_TIME, PENETRATION, PRESSURE, landing, push
 from hermite_fe.integrators.base import Integrator
 from hermite_fe.integrators.theta import Vectors, begin_step, finish_step
 from hermite_fe.stepping import WALL, Problem, State
@@ -119,9 +119,14 @@ def record_push(problem: Problem, state: State, memory: MidpointMemory, t: float
         dof = rows.dofs[j, 0]
         state.impulse[j] += h * memory.wall[0 if rows.factors[j, 0] < 0.0 else 1, dof]
         state.closed[j] = rows.gap[j] + rows.factors[j, 0] * memory.new[dof] < 0.0
-    largest = max(total[0], total[1])
+    largest, when = max(total[0], total[1]), t + 0.5 * h
+    for springs in (problem.matrices.springs, problem.matrices.second):
+        force, pressure = landing(springs, state.q, memory.new, state.v)
+        state.peaks[PRESSURE] = max(state.peaks[PRESSURE], pressure)
+        if force > largest:
+            largest, when = force, t
     if largest > state.peaks[FORCE]:
-        state.peaks[FORCE], state.peaks[FORCE_TIME] = largest, t + 0.5 * h
+        state.peaks[FORCE], state.peaks[FORCE_TIME] = largest, when
     for i in (PENETRATION, PRESSURE):
         state.peaks[i] = max(state.peaks[i], memory.peaks[0, i], memory.peaks[1, i])
 

@@ -9,6 +9,7 @@ from numpy.testing import assert_allclose
 from bent_beam import Impact
 from bent_beam.free_flight import has_left
 from bent_beam.measure.balance import balance_of
+from bent_beam.measure.reduction import wall_peaks
 from bent_beam.measure.whole_impact import whole_impact
 from bent_beam.meshes import UniformMesh
 from exudyn_models import ExudynModel, simulate
@@ -123,6 +124,37 @@ def test_both_paths_agree_on_every_number_of_a_damped_wall(seed: int, refine: fl
     for name, within in WITHIN.items():
         ours, theirs = exudyn.array(name)[-1], hermite.array(name)[-1]
         assert ours == pytest.approx(theirs, rel=within), (name, drawn)
+
+
+SHEARS = {"shear_stiffness": 400.0, "rotary_inertia": 5e-4}  # √(κ_sGA μ) = 20
+
+
+@pytest.mark.parametrize("path", [HermiteFE, ExudynModel])
+@pytest.mark.parametrize(
+    ("about", "force"),
+    [
+        ({"wall_from": 0.0, "wall_to": 0.0}, 40.0),  # c V₀ of a stop
+        ({"wall_from": -0.05, "wall_to": 0.05}, 4.0),  # c b V₀ of a plate
+        ({"wall_from": 0.0, "wall_to": 0.0, "damping": 1e-4} | SHEARS, 40.0),
+    ],
+)
+def test_a_dashpot_is_pushed_hardest_before_the_beam_has_slowed_down(path, about, force) -> None:
+    """Steps see less: the force falls at once, with shear within η."""
+    impact = Impact(1.0, 1.0, 2.0, 0.0, 1.0, wall_stiffness=1.0, wall_damping=40.0, **about)
+    history = path(mesh=UniformMesh(1.0 / 40)).simulate(impact, end_time=0.02, save=40)
+    assert history.array("peak_force")[-1] == pytest.approx(force, rel=1e-9)
+    assert history.array("peak_pressure")[-1] == pytest.approx(40.0, rel=1e-9)
+    assert history.array("peak_force_time")[-1] < 1e-3 and wall_peaks(history).sharp > 0.0
+
+
+@pytest.mark.parametrize(("place", "waves"), [(0.0, 2), (1.0, 1)])
+def test_shear_waves_take_their_part_of_the_first_force_on_a_stop_from_a_beam_without_damping(place, waves) -> None:
+    """F = c(V₀ − F/(2√(κ_sGA μ))), one wave where the stop is at an end: the mean force soon after the touch, too."""
+    impact = Impact(1.0, 1.0, 2.0, 0.0, 1.0, wall_stiffness=1.0, wall_damping=40.0, wall_from=place, wall_to=place)
+    impact, exact = impact.replace(**SHEARS), 40.0 / (1.0 + 40.0 / (20.0 * waves))
+    history = HermiteFE(mesh=UniformMesh(1.0 / 800)).simulate(impact, end_time=1e-3, save=2)
+    assert history.array("peak_force")[-1] == pytest.approx(exact, rel=1e-9)
+    assert history.array("total_impulse")[-1] / history.time[-1] == pytest.approx(exact, rel=0.04)
 
 
 def test_a_beam_that_leaves_a_soft_wall_under_a_load_has_its_restitution() -> None:
