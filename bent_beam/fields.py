@@ -194,6 +194,9 @@ def part_or_auto(kinds: Mapping[str, type], table: Any, where: str, default: str
     if not keys:
         return None
     fitting = [name for name, kind in kinds.items() if {*keys} <= {*map(key_of, declared(kind))}]
+    known = [key for kind in kinds.values() for key in map(key_of, declared(kind))]
+    if unknown := [key for key in keys if key not in known]:
+        raise unknown_key(where, unknown[0], known)
     kind = default if default in fitting else fitting[0] if len(fitting) == 1 else None
     if kind is None or "kind" in table:
         raise InputError(f"{where}.kind is required next to {where}.{keys[0]} (one of {', '.join(sorted(kinds))})")

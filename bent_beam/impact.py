@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bent_beam.checks import LARGEST, non_negative, positive
+from bent_beam.checks import LARGEST, non_negative, positive, shortened
 from bent_beam.errors import InputError
 from bent_beam.hysteresis import check_loss
 from bent_beam.loads import loads_of, places_of
@@ -146,6 +146,13 @@ class Impact(Scales):
             if abs(self.group(load)) * time > ENDLESS:
                 raise InputError(f"{load} is out of all proportion to a time of {value:.6g} s (got {given!r})")
         return float(value)
+
+
+def checked_impact(given: Any) -> Impact:
+    """``given``, or ``ValueError`` where it is no impact but a case or its file."""
+    if not isinstance(given, Impact):
+        raise InputError(f"impact must be a bent_beam.Impact, as load_case(…).impact is (got {shortened(given)})")
+    return given
 
 
 def _check_scales(impact: Impact) -> None:

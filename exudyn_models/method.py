@@ -19,7 +19,7 @@ from bent_beam.errors import InputError, SimulationError
 from bent_beam.fields import Part, Quantity
 from bent_beam.free_flight import Separation
 from bent_beam.history import ImpactHistory
-from bent_beam.impact import Impact
+from bent_beam.impact import Impact, checked_impact
 from bent_beam.loads import unmodelled
 from bent_beam.meshes import MESHES, Mesh
 from bent_beam.method import Progress, Save, made_of, separation_times
@@ -246,7 +246,7 @@ def simulate(
     out; ``TypeError`` for a part of an unknown name; :class:`bent_beam.SimulationError`, with the history up to there,
     where Exudyn's solver failed, contact states did not settle, or the state stopped being finite.
     """
-    end, method = impact.checked_end_time(end_time), ExudynModel(**parts)
+    end, method = checked_impact(impact).checked_end_time(end_time), ExudynModel(**parts)
     if supports_or_plate(impact):
         method = method.for_whole_beam(impact)
     if reason := method.refuses(impact):

@@ -196,7 +196,8 @@ class Stepping:
             if viewing:
                 container.renderer.Stop()
             mbs.SetPostNewtonUserFunction(0)
-            mbs.variables.clear()  # the container holds the system: break the circle
+            mbs.SetPreNewtonResidualUserFunction(0)
+            mbs.variables.clear()  # container and functions hold the system: break the circle, or it is never freed
 
     def _all_segments(self, mbs: Any) -> None:
         if self.settling is not None:

@@ -11,7 +11,7 @@ import numpy as np
 from bent_beam.errors import InputError
 from bent_beam.free_flight import Separation
 from bent_beam.history import ImpactHistory
-from bent_beam.impact import Impact
+from bent_beam.impact import Impact, checked_impact
 from bent_beam.meshes import MESHES, UniformMesh
 from bent_beam.method import Progress, Save, made_of, separation_times
 from hermite_fe import resolution, whole_beam
@@ -69,7 +69,8 @@ class HermiteFE(Composition):
         What is no impact of a front that spreads from the middle (rocking, a first touch off it, a second wall,
         supports, a stop) gets the parts that suit the whole beam.
         """
-        chosen = self if spreads(impact) else self.for_whole_beam(impact, impact.checked_end_time(end_time))
+        end = checked_impact(impact).checked_end_time(end_time)
+        chosen = self if spreads(impact) else self.for_whole_beam(impact, end)
         return simulate(impact, end_time=end_time, save=save, progress=progress, **made_of(chosen))
 
     def chosen_for(self, impact: Impact, end_time: float) -> Self:

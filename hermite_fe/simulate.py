@@ -12,7 +12,7 @@ from bent_beam.errors import InputError, SimulationError
 from bent_beam.fields import describe
 from bent_beam.history import ImpactHistory
 from bent_beam.hysteresis import branches_of
-from bent_beam.impact import WAVES_FELT, Impact
+from bent_beam.impact import WAVES_FELT, Impact, checked_impact
 from bent_beam.loads import UNSHEARED, unmodelled
 from bent_beam.method import Progress
 from hermite_fe import resolution
@@ -73,7 +73,7 @@ def simulate(
     :class:`bent_beam.SimulationError` (with the partial history) when a run cannot finish.
     """
     composition = resolution.Composition(**parts)
-    if reason := refusal(impact, composition.contact):
+    if reason := refusal(checked_impact(impact), composition.contact):
         raise InputError(reason)
     full_beam = composition.full_beam or impact.off_centre
     end = impact.checked_end_time(end_time)

@@ -4,6 +4,8 @@ Half of it is modelled. Exact for an infinite beam: contact up to x = λ₀√t,
 """
 
 import argparse
+import os
+import sys
 from typing import Any
 
 import exudyn as exu
@@ -74,7 +76,10 @@ def main(arguments: list[str] | None = None) -> None:
     stepping.discontinuous.useRecommendedStepSize = False  # contact changes in most steps
     for name, value in KINDS["integrator"][chosen.integrator].items():
         setattr(stepping.generalizedAlpha, name, value)
-    watched = chosen.view and container.renderer.Start()
+    shown = not sys.platform.startswith("linux") or os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")
+    watched = chosen.view and shown and container.renderer.Start()
+    if chosen.view and not watched:
+        print("no display: Exudyn's viewer cannot open a window here", file=sys.stderr)
     mbs.SolveDynamic(settings)
     if watched:
         container.renderer.DoIdleTasks()

@@ -1,8 +1,10 @@
 """The impact as an Exudyn system for plain ``SolveDynamic``, and every combination of parts: run, or refused."""
 
 import dataclasses
+import gc
 import itertools
 import re
+import weakref
 
 import exudyn.itemInterface as items
 import numpy as np
@@ -15,6 +17,7 @@ from bent_beam.meshes import UniformMesh
 from bent_beam.method import method_from_tables
 from exudyn_models import CONTACTS, ELEMENTS, INTEGRATORS, ExudynModel
 from exudyn_models.contacts import Penalty, SegmentFriction
+from exudyn_models.contacts.penalty import PenaltyRun
 from exudyn_models.elements import GeometricallyExact
 from exudyn_models.geometry import TrueGeometry
 from exudyn_models.integrators import GeneralizedAlpha, Newmark
@@ -175,6 +178,28 @@ def test_sensors_are_those_of_the_beam_where_a_user_adds_a_mass_on_a_spring():
     model.mbs.SolveDynamic(model.settings)
     impulse = model.mbs.GetSensorStoredData(model.sensors["impulse"])[-1, 1]
     assert impulse == pytest.approx(impulse_of_theory(0.5), rel=0.02)
+
+
+def test_nothing_holds_the_system_of_a_run_that_is_over() -> None:
+    """Exudyn's system holds the functions that it calls, and these hold it."""
+    kept: list[weakref.ref[object]] = []
+
+    original = PenaltyRun.__init__
+
+    def noted(self, *given) -> None:
+        original(self, *given)
+        kept.append(weakref.ref(self))
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(PenaltyRun, "__init__", noted)
+        exudyn_models.simulate(Impact.dimensionless(0.5), end_time=1e-3, save=2, refine=0.5)
+    gc.collect()
+    assert [one() for one in kept] == [None]
+
+
+def test_a_system_of_more_steps_than_a_day_can_take_is_not_built() -> None:
+    with pytest.raises(ValueError, match=r"ask for 1e\+10 steps"):
+        exudyn_models.build(Impact.dimensionless(0.5), integrator=GeneralizedAlpha(time_step=1e-11), end_time=0.1)
 
 
 def test_a_solution_file_is_there_for_exudyns_viewer(tmp_path):
