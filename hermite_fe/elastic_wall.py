@@ -34,6 +34,7 @@ PEAKS = ("peak_force", "peak_force_time", "peak_penetration", "peak_pressure")
 
 POINTS, WEIGHTS = (0.5 * (values + shift) for values, shift in zip(np.polynomial.legendre.leggauss(4), (1.0, 0.0)))
 HALVINGS = 60  # of an interval that holds a zero
+AT_ONCE = 1e-4  # of a step, in which all of a plate touches that lands at once
 
 
 class Springs(NamedTuple):
@@ -219,17 +220,22 @@ def push(
 @compiled_within
 def landing(springs: Springs, q: Array, new: Array, v: Array) -> tuple[float, float]:
     """Force, N, and largest pressure at the instant at which all of a stop or plate lands at once, between q, with the
-    velocities v, and ``new``: its dashpots have it before the beam has slowed down. 0 where less of it lands."""
-    flow, fastest = 0.0, 0.0
+    velocities v, and ``new``: its dashpots have it before the beam has slowed down. 0 where it lands bit by bit."""
+    flow, fastest, low, high, after = 0.0, 0.0, math.inf, -math.inf, -math.inf
     for e in range(springs.first, springs.last):
-        if max(coefficients(springs, q, e)) > 0.0 or min(coefficients(springs, new, e)) <= 0.0:
+        low, high = min(low, min(coefficients(springs, q, e))), max(high, max(coefficients(springs, q, e)))
+        after = max(after, max(coefficients(springs, new, e)))
+        if high > 0.0 or high - low > AT_ONCE * (after - high):
             return 0.0, 0.0
         i, length = 2 * e, springs.lengths[e]
         flow += length * (0.5 * (v[i] + v[i + 2]) + length / 12.0 * (v[i + 1] - v[i + 3]))
         fastest = max(fastest, springs.side * v[i], springs.side * v[i + 2])
-    if springs.stop >= 0 and sunk(springs, q, springs.stop) <= 0.0 < sunk(springs, new, springs.stop):
+    if springs.stop >= 0:
+        high, after = sunk(springs, q, springs.stop), sunk(springs, new, springs.stop)
         flow = v[springs.stop]
         fastest = springs.side * flow
+    if not high <= 0.0 < after:
+        return 0.0, 0.0
     return springs.at_landing * springs.side * flow, springs.at_landing * fastest
 
 

@@ -34,8 +34,8 @@ class PeakMoment(NamedTuple):
 class WallPeaks(NamedTuple):
     """The largest force on the whole zone of a wall that gives way, N, and its time, s; the largest penetration, m, and
     pressure, N/m (of a stop its force, N); of all steps, not only of the saved instants. sharp : by how much the force
-    stands above the mean of both steps beside it, N. Between the saved instants around its time: the mean |x| of that
-    force, m, and on which wall it acts, "front" or "opposite"; ``None`` where nothing pushes."""
+    stands above the mean of both steps beside it, N, or 1e-4 of it. Between the saved instants around its time: the
+    mean |x| of that force, m, and on which wall it acts, "front" or "opposite"; ``None`` where nothing pushes."""
 
     force: float
     time: float

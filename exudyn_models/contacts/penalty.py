@@ -47,6 +47,7 @@ from exudyn_models.solvers import USUAL, NewtonSolver
 
 STIFFNESS, DAMPING = 10.0, 3.0  # C and D
 PLASTIC = 40.0  # D behind a thin front
+AT_ONCE = 1e-4  # of a step, in which all nodes of a plate touch that lands at once, before the beam has slowed down
 MATCHED = 4.0 * math.sqrt(3.0)  # D with shear, elements shorter than l_s: d Δx = 2√(κ_sGA μ) …
 DAMPED = 4.0  # … unless the material's own damping takes as many element times: hits are then plastic by themselves
 
@@ -256,7 +257,8 @@ class SpringsRun(PenaltyRun):
     def landing(self, depth: Array, speed: Array) -> Array:
         impact = self.beam.scaling.impact
         share = impact.damping_at_landing / (impact.wall_damping or 1.0)
-        at_once = np.all((depth[:-1] <= 0.0) & (depth[1:] > 0.0), axis=1)  # before the beam has slowed down
+        low, high, after = depth[:-1].min(axis=1), depth[:-1].max(axis=1), depth[1:].max(axis=1)
+        at_once = (high <= 0.0) & (after > 0.0) & (high - low <= AT_ONCE * (after - high))
         return np.where(at_once[:, None], share * self.wall.damping * self.wall.weights * speed[:-1], 0.0)
 
 

@@ -136,15 +136,25 @@ SHEARS = {"shear_stiffness": 400.0, "rotary_inertia": 5e-4}  # √(κ_sGA μ) = 
         ({"wall_from": 0.0, "wall_to": 0.0}, 40.0),  # c V₀ of a stop
         ({"wall_from": -0.05, "wall_to": 0.05}, 4.0),  # c b V₀ of a plate
         ({"wall_from": 0.0, "wall_to": 0.0, "damping": 1e-4} | SHEARS, 40.0),
+        (HINGED, 160.0 / math.pi),  # c∫φV₀ of the mode, the hinges at rest
     ],
 )
 def test_a_dashpot_is_pushed_hardest_before_the_beam_has_slowed_down(path, about, force) -> None:
     """Steps see less: the force falls at once, with shear within η."""
     impact = Impact(1.0, 1.0, 2.0, 0.0, 1.0, wall_stiffness=1.0, wall_damping=40.0, **about)
     history = path(mesh=UniformMesh(1.0 / 40)).simulate(impact, end_time=0.02, save=40)
-    assert history.array("peak_force")[-1] == pytest.approx(force, rel=1e-9)
+    assert history.array("peak_force")[-1] == pytest.approx(force, rel=2e-4)  # the mode, by nodes
     assert history.array("peak_pressure")[-1] == pytest.approx(40.0, rel=1e-9)
     assert history.array("peak_force_time")[-1] < 1e-3 and wall_peaks(history).sharp > 0.0
+
+
+@pytest.mark.parametrize("path", [HermiteFE, ExudynModel])
+def test_a_bowed_beam_lands_on_a_plate_bit_by_bit_however_long_the_step(path) -> None:
+    """38.71 by steps that resolve it, of Hermite elements; 40 is c b V₀."""
+    bowed = Impact(1.0, 1.0, 2.0, 0.1, 1.0, wall_stiffness=1e3, wall_damping=400.0, damping=1e-3)
+    bowed = bowed.replace(wall_from=-0.05, wall_to=0.05)
+    history = path(mesh=UniformMesh(1.0 / 40)).simulate(bowed, end_time=0.05, save=20)
+    assert history.array("peak_force")[-1] < 38.8
 
 
 @pytest.mark.parametrize(("place", "waves"), [(0.0, 2), (1.0, 1)])
