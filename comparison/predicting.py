@@ -24,6 +24,7 @@ from bent_beam.measure.estimators import lift_shares
 from bent_beam.measure.instant import instant
 from bent_beam.measure.moments import AROUND
 from bent_beam.measure.numbers import FACTOR, Number
+from bent_beam.measure.reduction import LANDING
 from bent_beam.tables import in_keys
 from comparison.bounced import Bounce, documents, with_stress
 from comparison.bouncing import bounce
@@ -71,6 +72,8 @@ def instant_numbers(runs: Runs) -> dict[str, Number]:
     if question.impact.wall_stiffness is not None:
         known["reaction"]["about_the_time"] = _crossings_of_force(runs)
         known["peak_force"]["sharp"] = reading["peak_force_sharp"]
+        if all(one.reading["peak_pressure"] == reading["peak_pressure"] for one in runs.every):  # that of a landing
+            known["peak_pressure"]["sharp"] = LANDING * (reading["peak_pressure"] or 0.0)
     known["peak_moment"] = unseen_of_moment(runs)
     if not question.late:
         impact = question.impact

@@ -75,6 +75,14 @@ def test_curves_that_cross_at_the_time_asked_do_not_agree() -> None:
     assert found.bar == pytest.approx(FACTOR * 0.04 / 0.4)
 
 
+def test_the_pressure_of_a_landing_is_the_same_in_every_run_and_has_a_bar_all_the_same() -> None:
+    rigid = runs(TIME, TIME)
+    soft = dataclasses.replace(rigid.question, impact=rigid.question.impact.replace(wall_stiffness=1e4))
+    assert instant_numbers(dataclasses.replace(rigid, question=soft))["peak_pressure"].bar == pytest.approx(1e-4)
+    other = dataclasses.replace(runs(TIME, TIME | {"peak_pressure": 1.01}), question=soft)
+    assert instant_numbers(other)["peak_pressure"].bar == pytest.approx(FACTOR * 0.01)
+
+
 def test_a_half_length_that_a_companion_does_not_have_is_as_unsure_as_it_is_long() -> None:
     number = instant_numbers(runs(TIME, TIME | {"half_contact_length": None}))["half_contact_length"]
     assert number.value == 1.0 and number.bar == pytest.approx(FACTOR)
