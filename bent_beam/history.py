@@ -200,8 +200,7 @@ class ImpactHistory:
             return np.stack([recorded[..., :-1], recorded[..., 1:]], axis=-1), place
         y = -self.array("gap", k) - 0.5 * impact.wall_curvature * (x - impact.first_touch) ** 2
         slope = self.array("slope", k) if "slope" in self else np.gradient(y, x, axis=-1, edge_order=2)
-        natural = impact.curvature if impact.natural_curvature is None else impact.natural_curvature
-        return impact.bending_stiffness * (end_curvatures(x, y, slope) + natural), place
+        return impact.bending_stiffness * (end_curvatures(x, y, slope) + impact.unbent_curvature), place
 
     @property
     def force(self) -> Array:

@@ -31,6 +31,7 @@ ENDLESS = 1e30  # time, and change of the free motion by the loads, in the probl
 WAVES_FELT = 0.005  # T*: until then waves from the ends change the impulse by 1 % at most, of flat contacts by more
 BEFORE_WAVES_RETURN = 0.01  # T*: the earliest that they change the impulse by 2 %
 ROUND_OFF = 1e-9  # of the length: a place so near an edge of the wall lies on it
+AT_ONCE = 1e-4  # of a step: what touches within it lands at once
 SCALES = ("wave_constant", "time_scale", "length_scale", "slow_time_scale", "epsilon")
 GROUPS = ("epsilon_alpha", "epsilon_chi", "epsilon_psi", "epsilon_axial", "relative_damping", "kappa_over_nu")
 NOT_HELD = ("rotation", "curvature_rate", "fourth_derivative")  # motions that a support does not allow
@@ -116,8 +117,9 @@ class Impact(Scales):
     @property
     def damping_at_landing(self) -> float:
         """Force over velocity of the wall's dashpots where all of a stop (N s/m), or of a plate along a straight beam
-        (N s/m²), lands at once: c, as the beam has not slowed down yet. Without damping of its own a beam that shears
-        slows down at once at a stop: it sends off shear waves, F = c(V − F/(2√(κ_sGA μ))), half as many at an end."""
+        (N s/m²), lands at once (:data:`AT_ONCE`): c, as the beam has not slowed down yet. Without damping of its own a
+        beam that shears slows down at once at a stop: it sends off shear waves, F = c(V − F/(2√(κ_sGA μ))), half as
+        many at an end."""
         c, (begin, end) = self.wall_damping, self.wall_span
         if begin != end or self.shear_stiffness is None or self.damping or self.hysteretic_loss:
             return c

@@ -52,9 +52,7 @@ class Scales(Part):
     wall_curvature: Annotated[float, Quantity("1/m", "K_w, positive where the wall is concave; less than K")] = 0.0
     natural_curvature: Annotated[
         float | None,
-        Quantity(
-            "1/m", "stress-free K, the whole bow's unless given; other forces hold the rest, which adds its moment"
-        ),
+        Quantity("1/m", "curvature without stress, K unless given; the rest of K is elastic and adds its moment"),
     ] = None
     rotation: Annotated[float, Load("rad/s", "rocking about the middle (runs of the full beam)", powers=(1, 1))] = 0.0
     first_touch: Annotated[float, Quantity("m", "the bow's apex from the middle (runs of the full beam)")] = 0.0
@@ -165,6 +163,11 @@ class Scales(Part):
     def kappa_over_nu(self) -> float:
         """κ/ν = K √(EI/μ)/V₀: the one parameter of the leading order."""
         return self.relative_curvature * self.length_scale
+
+    @property
+    def unbent_curvature(self) -> float:
+        """Curvature of the beam without stress: that of the whole bow unless ``natural_curvature`` says otherwise."""
+        return self.curvature if self.natural_curvature is None else self.natural_curvature
 
     @property
     def relative_curvature(self) -> float:

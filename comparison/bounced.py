@@ -24,7 +24,7 @@ from comparison.whole_numbers import MAY_RISE, WHOLE
 __all__ = ["OF_WHOLE", "Bounce", "documents", "scales", "with_stress"]
 
 OF_WHOLE = ("restitution", "peak_moment", "peak_stress", "peak_force")
-"""What is said of a whole impact where it is not all that is asked."""
+"""Numbers of the whole impact that other answers include."""
 OF_FORCE = ("peak_force_time", "peak_force_place")
 LYING = 5.0  # times the largest push or moment: the end for a beam that does not leave
 MARGIN = 1.15  # times the last contact, or the largest value: the end of the axes
@@ -96,8 +96,8 @@ class Bounce:
     @property
     def in_si(self) -> dict[str, Number | Band]:
         """The numbers in SI units, and the largest stress (:func:`with_stress`)."""
-        unit = self.units
-        found = {name: n.scaled(unit.get(WHOLE[name].scale, 1.0)) for name, n in self.numbers.items()}
+        unit = {"": 1.0, **self.units}
+        found = {name: n.scaled(unit[WHOLE[name].scale]) for name, n in self.numbers.items()}
         # shares become J by the energy supplied until the last contact: as loads work on, the bar of its time adds to J
         late = abs(self.outcome.supplied_rate) * (self.numbers["last_contact"].bar or 0.0)
         for name, n in found.items():

@@ -48,7 +48,7 @@ WIDE = 0.02  # of a leading-order number: a wider error bar deserves a warning
 WIDE_FIRST = 0.1  # of max(|r₁|, 1), likewise
 CODE = (
     *("bent_beam", "theory", "hermite_fe", "self_similar_fe", "exudyn_models"),
-    *("comparison.matching", "comparison.rows", "comparison.runs"),
+    *("comparison.matching", "comparison.questions", "comparison.rows", "comparison.runs"),
 )
 """What the numbers of a row depend on, as :func:`bent_beam.stored.write` takes it."""
 

@@ -28,8 +28,8 @@ PATHS = ("hermite", "exudyn")  # that are compared where none is named
 
 
 def check_effect(assignments: Iterable[str], names: Sequence[str], unused: Mapping[str, str], option: str) -> None:
-    """``InputError`` for an assignment to a path that is not among ``names``, or to a table ``unused`` for a reason:
-    what a case file may hold beside others is a mistake where it is asked for."""
+    """``InputError`` for an assignment to a path that is not among ``names``, or to a table ``unused`` for a reason.
+    A case file may hold settings that a command does not use; on the command line they are a mistake."""
     other = f"the path is {' and '.join(names)}" if names else "nothing is simulated"
     reasons = dict.fromkeys({*paths()} - {*names}, other) | dict(unused)
     for assignment in assignments:

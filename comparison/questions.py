@@ -40,10 +40,10 @@ EARLY = 0.003  # T*
 COARSER, FINER = 0.5, 2.0
 DRAWN, SEED = 5, 15  # runs of an ensemble at a time, without damping
 WEAK = 3e-5  # η/T*: with less a beam keeps waves that grid viscosity absorbs
-RESOLVES = 0.05  # over √(t/T*): how many times finer a whole beam's elements are when ten of them lie in √(ct)
+RESOLVES = 0.05  # elements finer by RESOLVES/√(t/T*) than those of a whole beam are a tenth of √(ct)
 EARLIEST = 1e-5  # T*: before, those waves carry less than 0.1 ‰ of the impulse
-OF_SHORT, SHORT = 2.0, 0.05  # times as many elements as for the whole impact, in runs to this time, T*; in longer fewer
-FINEST, SOON = 4.0, 0.025  # … in runs to SOON, T*, more, FINEST at most, to resolve what the first instants left
+OF_SHORT, SHORT = 2.0, 0.05  # to SHORT, T*, a run has OF_SHORT times the elements of a whole impact; to later, fewer
+FINEST, SOON = 4.0, 0.025  # before SOON, T*, it has more, FINEST times at most, to resolve what the first instants left
 INSTANTS, OF_UNIT = 200, 2000  # saved: up to the time asked, evenly in √t; of a whole impact, a T*
 ERROR_BARS = {"drift": (), "quick": (COARSER,), "thorough": (COARSER, FINER)}
 """Resolutions of the companion runs that error bars come from, by name."""

@@ -124,8 +124,8 @@ def code_of(function: Any) -> str:
 
 def source_of(method: Any) -> str | None:
     """A method's class, and what tells it from its older versions; ``None`` where it or a part of it is neither this
-    project's nor of an installed package: which files such code depends on is known to nobody, so that its runs are
-    not kept. With another package's parts the versions of all that is installed."""
+    project's nor of an installed package. The files that such code depends on are unknown, so its runs are not kept.
+    With another package's parts the versions of all that is installed."""
     name, places = f"{type(method).__module__}.{type(method).__qualname__}", {_place_of(k) for k in _kinds_in(method)}
     if None in places:
         return None

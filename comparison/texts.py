@@ -33,7 +33,7 @@ ENERGIES = {
     "initial": "initial energy",
     "kinetic": "kinetic energy at the end",
     "strain": "strain energy at the end",
-    "wall": "energy in the springs of the wall",
+    "wall": "energy in the springs of wall or contact",
     "defect": "energy residual",
 }
 OF_CONTACT = {"lift": "lift of the zone over V0 t", "pull": "largest pull over largest push"}

@@ -49,7 +49,7 @@ NUMBERS = tuple(name for name in WHOLE if name not in ("peak_stress", "peak_forc
 """Those of every whole impact: a stress needs a section, a largest force a wall that gives way."""
 FINAL = tuple(name for name, about in WHOLE.items() if about.final)
 MAY_RISE = ("peak_moment", "peak_force")
-"""Those that a run which ends with the beam at the wall may not have come to."""
+"""Those that may still grow if a run ends with the beam at the wall."""
 
 HIT = {
     "wall": "wall",

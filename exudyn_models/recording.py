@@ -72,9 +72,9 @@ class Recorder:
         self.beam, self.contact, self.averages = beam, contact, averages
         shape, self.copies = beam.shape, 2.0 if half else 1.0
         self.scaling = scaling = beam.scaling
-        impact, natural = scaling.impact, scaling.impact.natural_curvature
         # what the bow has been bent by before the first touch
-        self.unbent = 0.0 if natural is None else (natural - impact.curvature) * scaling.length / scaling.slope
+        bent = scaling.impact.unbent_curvature - scaling.impact.curvature
+        self.unbent = bent * scaling.length / scaling.slope
         self.momentum = beam.momentum
         self.record: dict[str, list[Any]] = defaultdict(list)
         self.sums: dict[str, Any] = defaultdict(float)
@@ -201,7 +201,8 @@ class Recorder:
     def _of_contact(self, time: Array, q: Array, v: Array, force: Array, along: Array) -> dict[str, Array]:
         """Work, losses and impulses of the contact forces in each step, each (steps,)."""
         mean, contact = means(force), self.contact
-        deeper = np.diff(depth := q[:, contact.coordinates] - contact.wall_y, axis=0)
+        depth = q[:, contact.coordinates] - contact.wall_y
+        deeper = np.diff(depth, axis=0)
         pushes = mean * contact.signs * np.diff(time)[:, None]
         gains = {"contact_work": products(mean, deeper), "held_impulse": np.minimum(pushes, 0.0).sum(axis=1)}
         if contact.along is not None:
@@ -227,7 +228,7 @@ class Recorder:
         return np.asarray(gain * dt[:, None])
 
     def _shared(self, gain: Array, q: Array, total: Array) -> Array:
-        """``gain`` of each contact point in each step, (steps, contacts), with what ``total`` (steps,) is more or less
+        """``gain`` of each contact point in each step, (steps, contacts). What its sum lacks of ``total``, (steps,), is
         shared among those that push: an explicit scheme has forces within its steps, too."""
         if self.scaling.impact.supported:  # supports take momentum, too
             return gain
@@ -270,8 +271,7 @@ class Recorder:
         if not front.all():  # contact points of the opposite wall follow those of the front
             at_contact["opposite_impulse"] = -impulse[:, ~front]
             at_contact["in_contact"] |= active[:, ~front]
-        impulses = ("total_impulse", "law_impulse", "held_impulse")
-        of_time = {name: saved[name] * self.copies * s.impulse for name in impulses}
+        of_time = {n: saved[n] * self.copies * s.impulse for n in ("total_impulse", "law_impulse", "held_impulse")}
         of_time |= {name: saved[name] * self.copies * s.energy for name in ENERGIES if name in saved}
         largest, place, midspan = saved["moments"].T
         of_time |= {

@@ -25,6 +25,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from bent_beam.impact import AT_ONCE
 from hermite_fe.compiled import Array, compiled, compiled_within
 
 FORCE, FORCE_TIME, PENETRATION, PRESSURE = range(4)
@@ -34,7 +35,6 @@ PEAKS = ("peak_force", "peak_force_time", "peak_penetration", "peak_pressure")
 
 POINTS, WEIGHTS = (0.5 * (values + shift) for values, shift in zip(np.polynomial.legendre.leggauss(4), (1.0, 0.0)))
 HALVINGS = 60  # of an interval that holds a zero
-AT_ONCE = 1e-4  # of a step, in which all of a plate touches that lands at once
 
 
 class Springs(NamedTuple):
@@ -221,6 +221,8 @@ def push(
 def landing(springs: Springs, q: Array, new: Array, v: Array) -> tuple[float, float]:
     """Force, N, and largest pressure at the instant at which all of a stop or plate lands at once, between q, with the
     velocities v, and ``new``: its dashpots have it before the beam has slowed down. 0 where it lands bit by bit."""
+    if springs.at_landing == 0.0:
+        return 0.0, 0.0
     flow, fastest, low, high, after = 0.0, 0.0, math.inf, -math.inf, -math.inf
     for e in range(springs.first, springs.last):
         low, high = min(low, min(coefficients(springs, q, e))), max(high, max(coefficients(springs, q, e)))

@@ -138,9 +138,8 @@ def beam_model(
     dampings = far_field.dampings(beam, impact)
     if impact.damping > 0.0:  # Kelvin–Voigt: C = ηK
         dampings += (("material", impact.damping * bending_stiffness),)
-    unbent = impact.curvature if impact.natural_curvature is None else impact.natural_curvature
-    moment = impact.bending_stiffness * (unbent - impact.curvature)  # of the bow: none unless a part of it is elastic
-    bending = Bending(beam.lengths, beam.phi, relaxed, moment, half.size - 1 if full else 0)
+    bent = impact.unbent_curvature - impact.curvature  # what of the bow is elastic
+    bending = Bending(beam.lengths, beam.phi, relaxed, impact.bending_stiffness * bent, half.size - 1 if full else 0)
     supports = held_dofs(impact, beam, full=full)
     rows = before_the_wall(contact.rows(beam, facing, full=full), impact, supports)
     if impact.opposite_wall is not None:

@@ -37,8 +37,8 @@ from hermite_fe.resolution import (
 FEWEST_IN_FRONT = 4.0  # with fewer even elements the early impulse of one point is off by more than 1 %
 ELEMENTS = 200  # of a half beam that is followed until it has left
 SHEARED_ELEMENTS, SHEARED_STEP = 100, 0.0125  # likewise with shear; step, T*, over the element's share of the half beam
-HARD = 2.0  # times as many elements: with shear unless THICK and DAMPED, and in first instants with damping_is_felt
-THICK, DAMPED = 0.35, 3e-4  # κ/ν and η/T*: with both as large a beam with shear needs no more elements
+HARD = 2.0  # times as many elements, with shear unless κ/ν ≥ THICK and η/T* ≥ DAMPED, and where damping_is_felt
+THICK, DAMPED = 0.35, 3e-4
 ONE_POINT = 2.0  # κ/ν from which on a whole impact with shear is that of one point
 LARGEST_ELASTIC = 0.25  # of ℓ_k: the longest element before a wall that gives way
 PRESSED = 0.5  # of the beam's momentum: loads that give it more in a T* count as pressing
@@ -61,8 +61,8 @@ def damping_is_felt(impact: Impact, element: float) -> bool:
 def scheme(impact: Impact, contact: Contact, element: float, end_time: float | None) -> Integrator:
     """The integrator that is chosen for a whole beam on elements of this length, m.
 
-    For a run that only :func:`begins` it is one that loses what the unresolved start would throw off the wall, unless
-    damping is felt.
+    A run that only :func:`begins` takes a dissipative scheme: it removes the rebound of the unresolved start. Where
+    damping is felt, that start is resolved.
     """
     begin, end = impact.wall_span
     if end_time is not None and begins(impact, end_time) and not damping_is_felt(impact, element):

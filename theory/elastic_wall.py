@@ -29,6 +29,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 import scipy
@@ -85,6 +86,7 @@ class PeakForce:
     pressure: float
 
 
+@cache  # a prediction asks for each damping of the beam, which does not change it
 def peak_force(kappa_over_nu: float, wall_damping_ratio: float = 0.0) -> PeakForce:
     """f(κ/ν, ζ), in V₀√μ(EI k)^{1/4}.
 

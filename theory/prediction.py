@@ -221,9 +221,7 @@ class _Bending:
         """
         impact = self.impact
         unit = impact.moment_scale
-        before = 0.0
-        if impact.natural_curvature is not None:
-            before = impact.bending_stiffness * (impact.natural_curvature - impact.curvature)
+        before = impact.bending_stiffness * (impact.unbent_curvature - impact.curvature)
         at_contact = abs(before + unit * self.moments.at_contact * factor)
         ahead = abs(before - unit * self.moments.ahead * factor)
         if at_contact >= max(ahead, abs(before)):

@@ -47,7 +47,7 @@ class Balance:
     the budget leaves at a saved instant, over the initial energy and the work of the loads; middle_slope : largest
     slope at x = 0 of a symmetric run, over the largest anywhere. ``None`` where a number means nothing."""
 
-    path: str  # what its limits are those of
+    path: str  # the key of its limits (:data:`bent_beam.measure.limits.LIMITS`)
 
     momentum: float | None
     second_moment: float | None

@@ -36,8 +36,8 @@ LIFTED = 0.1  # of V₀t: a larger lift counts whole, a smaller one in proportio
 INSIDE = 0.5  # relative error of λ₀ over that of r₀, by a lift: such pushes act anywhere behind the front
 STUCK_FIRST = 0.4  # … of a load that should lift the zone and does not: springs push on, or no node is there
 LIFTED_FIRST = 2.0  # of what the lift does to r₀ and λ₀: a load moves the front of a lifted zone differently
-LIFTED_MORE, UNDER_LIFT = 0.01, 10.0  # under a load that lifts, the second times what the lift has beyond the first,
-# of V₀t, is added: velocity-level laws at κ/ν = 0.055 and 0.075 lift it by 0.03, and r₁ is 40 and 23 % off
+LIFTED_MORE, UNDER_LIFT = 0.01, 10.0  # under a load that lifts the zone UNDER_LIFT (lift/V₀t − LIFTED_MORE) is added:
+# velocity-level laws at κ/ν = 0.055 and 0.075 lift it by 0.03, and r₁ is 40 and 23 % off
 HITS_FIRST = 3.0  # times what a load that lifts the zone changes of hits inside it: they also act closer to the front
 MISSING_FIRST = 2.5  # of the zone's length times what its uniform reaction lacks: a zone off the wall moves the front
 

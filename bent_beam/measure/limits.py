@@ -11,6 +11,7 @@ LIMITS = {
     "self_similar": {"penetration": 1e-5, "pull": 0.1, "energy": 0.06, "middle_slope": 3e-8},
     "exudyn": {"penetration": 2e-3, "pull": 1e-6, "energy": 4e-7, "middle_slope": 1e-9, "law": 4e-5},
     "exudyn, axial force": {"penetration": 2e-3, "pull": 1e-6, "energy": 1e-4, "middle_slope": 1e-9, "law": 4e-5},
+    "exudyn, segments": {"penetration": 2e-3, "pull": 0.01, "energy": 4e-7, "middle_slope": 1e-9, "law": 4e-4},
     "exudyn, explicit or ρ∞ > ½": {
         "penetration": 4e-3,
         "pull": 4e-3,
@@ -31,6 +32,7 @@ steps close the energy to their own order alone and have forces within them: the
 κ/ν = 0.25 and 1.5. An axial force works on the stretch of all of the beam: 3e-5 at N = 20 EI/ℓ². A beam that shears
 is deeper in the wall: Hermite's contact is then at velocity level (0.014 under a load), Exudyn's penalty soft
 (0.02 of a flat beam with a damping ratio of 5 %, and a pull of 1e-6); that limit is two and a half times the worst.
+Chords of ``segment_friction`` open and close by forces within its contact_tolerance: ten runs pulled by 0.003 at most.
 ``law``: one step with which the solver keeps a wrong state of the contact may have 4e-3."""
 IMPLICIT = ("GeneralizedAlpha", "Newmark", "Trapezoidal")
 """Integrators of Exudyn with the limits of "exudyn"; one that is not named has those of the explicit ones."""
@@ -54,7 +56,7 @@ SAYS = {
 
 
 def limited_as(history: ImpactHistory) -> str:
-    """The key of ``LIMITS`` for a run: its path, or a kind of its integrators, and whether the beam shears."""
+    """The key of ``LIMITS`` for a run: its path, a kind of its integrators or contacts, and whether the beam shears."""
     return _by_integrator(history) + (", shear" if history.impact.shear_stiffness is not None else "")
 
 
@@ -65,6 +67,8 @@ def _by_integrator(history: ImpactHistory) -> str:
     sound = integrator.get("kind") in IMPLICIT and integrator.get("spectral_radius", 0.5) <= 0.5
     if not sound:
         return "exudyn, explicit or ρ∞ > ½"
+    if (history.settings.get("contact") or {}).get("kind") == "SegmentFriction":
+        return "exudyn, segments"
     return "exudyn, axial force" if history.impact.axial_force else "exudyn"
 
 

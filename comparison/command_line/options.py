@@ -69,7 +69,11 @@ Methods = Annotated[
     typer.Option(metavar="FILE.toml", help="File of methods (see cases/methods/), in place of --path. Repeatable."),
 ]
 ErrorBars = Annotated[
-    str, typer.Option(help="quick (one companion run, half resolution), thorough (also twice), drift (none).")
+    str,
+    typer.Option(
+        help="quick (a run of half the resolution; late, one of another contact law, too), thorough (also twice), "
+        "drift (none)."
+    ),
 ]
 Refine = Annotated[
     str | None, typer.Option(metavar="1,2,4", help="Factors by which elements and steps are refined, a row each.")

@@ -32,7 +32,7 @@ def bounce(
         int | None, typer.Option(min=2, max=1000, help="Runs of the ensemble without damping. Default: 24.")
     ] = None,
     seed: Annotated[int | None, typer.Option(min=0, help="Seed of the ensemble. Default: 15.")] = None,
-    hits: Annotated[int, typer.Option(min=1, max=20, help="Number of hits to follow under loads.")] = 1,
+    hits: Annotated[int, typer.Option(min=1, max=20, help="Number of hits to follow.")] = 1,
     out: Annotated[
         Path | None, typer.Option(help="Folder for document, picture and animation; earlier ones are replaced.")
     ] = None,
@@ -146,7 +146,8 @@ def sweep(
 ) -> None:
     """Vary keys of a case: the whole impact of each, in a table.
 
-    A row has the numbers of bentbeam bounce. One key gives curves with error bars, two a map. What is finished is kept.
+    A row has the main numbers of bentbeam bounce. One key gives curves with error bars, two a map. What is finished is
+    kept.
 
     Example: bentbeam sweep cases/tube.toml --vary impact.velocity=0.5:2:4 --vary beam.sagitta=0.005,0.01,0.02 --out out
     """

@@ -39,6 +39,7 @@ import numpy as np
 from bent_beam import Impact
 from bent_beam.errors import InputError
 from bent_beam.fields import Quantity
+from bent_beam.impact import AT_ONCE
 from exudyn_models.contacts.base import START, TINY, Contact, ContactRun, HeldStrip, Hold, Wall
 from exudyn_models.elements import Beam, Element
 from exudyn_models.geometry import Array, Flags, element_times
@@ -47,7 +48,6 @@ from exudyn_models.solvers import USUAL, NewtonSolver
 
 STIFFNESS, DAMPING = 10.0, 3.0  # C and D
 PLASTIC = 40.0  # D behind a thin front
-AT_ONCE = 1e-4  # of a step, in which all nodes of a plate touch that lands at once, before the beam has slowed down
 MATCHED = 4.0 * math.sqrt(3.0)  # D with shear, elements shorter than l_s: d Δx = 2√(κ_sGA μ) …
 DAMPED = 4.0  # … unless the material's own damping takes as many element times: hits are then plastic by themselves
 
