@@ -15,7 +15,7 @@ settings.register_profile(
     derandomize="FUZZ" not in os.environ,
     deadline=None,
     database=None,
-    max_examples=30,
+    max_examples=20,
     suppress_health_check=list(HealthCheck),
 )
 settings.load_profile("tests")
