@@ -1,6 +1,7 @@
 """What is refused, how failures end, and when the contact states of a step have settled."""
 
 from functools import partial
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from bent_beam.meshes import NodesMesh, UniformMesh
 from bent_beam.method import method_from_tables
 from exudyn_models import ExudynModel
 from exudyn_models.contacts import Penalty, Rigid, SegmentFriction
+from exudyn_models.contacts.segment_friction import _Run as SegmentRun
 from exudyn_models.elements import ANCFCable
 from exudyn_models.geometry import TrueGeometry
 from exudyn_models.integrators import RK44, GeneralizedAlpha, Newmark, VelocityVerlet
@@ -183,6 +185,15 @@ def test_exchanges_that_go_in_a_circle_are_no_proof_that_no_state_is_consistent(
     settling = settled(contact)
     assert settling.unsettled == settling.cycles == 0
     assert contact.forces == pytest.approx(np.full(3, 1 / 3), rel=1e-12)
+
+
+def test_a_chord_contradicts_its_state_by_the_force_of_its_spring_on_its_gap():
+    """In the wall and open; off the wall and closed without a push. Two sound ones are between them."""
+    contact = SimpleNamespace(stiffness=np.array([2.0, 2.0, 2.0, 4.0]))
+    gap, push = np.array([-0.5, -0.5, 0.25, 0.25]), np.array([1.0, 1.0, 0.5, 0.0])
+    contact._pushes = lambda q, v: (gap, push, None)
+    found = SegmentRun.contradictions(contact, None, None, np.array([False, True, False, True]))
+    assert found.tolist() == [1.0, 0.0, 0.0, 1.0]
 
 
 def test_a_contact_without_a_consistent_state_is_counted_and_ends():
