@@ -11,7 +11,6 @@ import logging
 import os
 import shutil
 import tempfile
-import threading
 import time
 from collections.abc import Callable
 from contextlib import suppress
@@ -20,7 +19,9 @@ from pathlib import Path
 from traceback import walk_tb
 from typing import Any, TypeVar, cast
 
+import numba
 import numpy as np
+from numba.extending import overload, register_jitable
 from numpy.typing import NDArray
 from platformdirs import user_cache_path
 
@@ -72,25 +73,12 @@ ARITHMETIC: dict[str, Any] = {"error_model": "numpy", "fastmath": {"contract"}}
 """Sums may be contracted to fused multiply-adds; nothing else of IEEE arithmetic is given up."""
 
 
-WAITING: list[Callable[[], None]] = []
-"""Tells numba of the functions that it does not know yet. It is loaded with the first call: that takes half a second,
-which answers from closed forms or from the store do not need."""
-TELLING = threading.Lock()
-
-
 def compiled_within(function: Function) -> Function:
     """``function`` compiled as a part of the compiled functions that call it; from Python it is called as it stands.
 
     It needs no way in from Python, which for the data of a run takes long to compile.
     """
-
-    def tell() -> None:
-        from numba.extending import register_jitable
-
-        register_jitable(**ARITHMETIC)(function)
-
-    WAITING.append(tell)
-    return function
+    return cast(Function, register_jitable(**ARITHMETIC)(function))
 
 
 def compiled(function: Function) -> Function:
@@ -98,30 +86,18 @@ def compiled(function: Function) -> Function:
 
     Compiled functions that call it take it in as a part, without a way in from Python.
     """
-    alone: Any = None
-
-    def tell() -> None:
-        nonlocal alone
-        import numba
-        from numba.extending import overload
-
-        overload(from_python, jit_options=cast(Any, ARITHMETIC), strict=False)(lambda *arguments: function)
-        before = numba.config.CACHE_DIR  # type: ignore[attr-defined]
-        numba.config.CACHE_DIR = str(FOLDER)  # type: ignore[attr-defined]
-        try:
-            alone = numba.njit(cache=KEPT, **ARITHMETIC)(function)
-        finally:
-            numba.config.CACHE_DIR = before  # type: ignore[attr-defined]
+    before = numba.config.CACHE_DIR  # type: ignore[attr-defined]
+    numba.config.CACHE_DIR = str(FOLDER)  # type: ignore[attr-defined]
+    try:
+        alone = numba.njit(cache=KEPT, **ARITHMETIC)(function)
+    finally:
+        numba.config.CACHE_DIR = before  # type: ignore[attr-defined]
 
     @wraps(function)
     def from_python(*arguments: Any, **named: Any) -> Any:
-        if alone is None:
-            with TELLING:
-                while WAITING:
-                    WAITING.pop()()
         return alone(*arguments, **named)
 
-    WAITING.append(tell)
+    overload(from_python, jit_options=cast(Any, ARITHMETIC), strict=False)(lambda *arguments: function)
     return cast(Function, from_python)
 
 

@@ -42,7 +42,8 @@ class Springs(NamedTuple):
 
     lengths, shares : (elements,), m, and σ of shear.
     Elements ``first`` to ``last`` − 1 stand before the wall. stop : the dof of a stop, or −1.
-    side : 1 of a wall in front of the beam, −1 behind it. at_landing : c where all of a stop or a plate lands at once.
+    side : 1 of a wall in front of the beam, −1 behind it. at_landing : c where all of a stop or a plate lands at once,
+    within ``at_once`` of a step.
     """
 
     stiffness: float
@@ -55,6 +56,7 @@ class Springs(NamedTuple):
     stop: int
     side: float = 1.0
     at_landing: float = 0.0
+    at_once: float = AT_ONCE  # data: compiled code is kept until a module of this package changes
 
 
 NO_SPRINGS = Springs(0.0, 0.0, np.zeros(0), np.zeros(0), np.zeros(0), 0, 0, -1)
@@ -227,7 +229,7 @@ def landing(springs: Springs, q: Array, new: Array, v: Array) -> tuple[float, fl
     for e in range(springs.first, springs.last):
         low, high = min(low, min(coefficients(springs, q, e))), max(high, max(coefficients(springs, q, e)))
         after = max(after, max(coefficients(springs, new, e)))
-        if high > 0.0 or high - low > AT_ONCE * (after - high):
+        if high > 0.0 or high - low > springs.at_once * (after - high):
             return 0.0, 0.0
         i, length = 2 * e, springs.lengths[e]
         flow += length * (0.5 * (v[i] + v[i + 2]) + length / 12.0 * (v[i + 1] - v[i + 3]))

@@ -145,7 +145,7 @@ loads_no_more_than(allowed, "score", file)
 allowed.add("theory")
 import theory.prediction
 loads_no_more_than(allowed, "theory", "--kappa-over-nu", "0.5", "--alpha", "4")
-loads_no_more_than(allowed | {"hermite_fe"}, "predict", "cases/ruler.toml", "--theory-only")
+loads_no_more_than(allowed, "predict", "cases/ruler.toml", "--theory-only")
 """
 
 

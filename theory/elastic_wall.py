@@ -86,7 +86,6 @@ class PeakForce:
     pressure: float
 
 
-@cache  # a prediction asks for each damping of the beam, which does not change it
 def peak_force(kappa_over_nu: float, wall_damping_ratio: float = 0.0) -> PeakForce:
     """f(κ/ν, ζ), in V₀√μ(EI k)^{1/4}.
 
@@ -97,7 +96,12 @@ def peak_force(kappa_over_nu: float, wall_damping_ratio: float = 0.0) -> PeakFor
     Raises:
         ValueError: a value outside its range.
     """
-    between("kappa_over_nu", kappa_over_nu, FLATTEST, SHARPEST)
+    ratio = between("kappa_over_nu", kappa_over_nu, FLATTEST, SHARPEST)
+    return _peak_force(ratio, between("wall_damping_ratio", wall_damping_ratio, 0.0, MOST_DAMPED))
+
+
+@cache  # asked at each damping of the beam, which does not change it
+def _peak_force(kappa_over_nu: float, wall_damping_ratio: float) -> PeakForce:
     # the first run finds the time scale, the second what happens on it
     end = 3.5 * max(1.0, kappa_over_nu**0.25)
     scout = wall_history(kappa_over_nu, wall_damping_ratio, end=end, cells=_CELLS, steps=2 * _CELLS)

@@ -100,7 +100,8 @@ def predict(
     from comparison.store import RunStore, check_writable
 
     loaded = load_case(case, assignments or ())
-    loaded.method("hermite")  # every table of the case is looked at, also where nothing is simulated
+    if loaded.tables or loaded.mesh is not None:  # looked at also where nothing is simulated
+        loaded.method("hermite")
     times = time or [loaded.end_time]
     simulates = not theory_only and max(times) > 0.0
     unused = {"run": "--time says when"} if time else {}

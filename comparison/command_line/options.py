@@ -71,8 +71,8 @@ Methods = Annotated[
 ErrorBars = Annotated[
     str,
     typer.Option(
-        help="quick (a run of half the resolution; late, one of another contact law, too), thorough (also twice), "
-        "drift (none)."
+        help="quick (a companion of half the resolution; simulate, after 0.003 T*: another contact law, too), "
+        "thorough (also twice), drift (none)."
     ),
 ]
 Refine = Annotated[

@@ -11,7 +11,7 @@ from histories import pushed_until, rod
 from bent_beam.cases import load_case
 from comparison import bounce, predict
 from comparison.figures import style
-from comparison.figures.history import _window
+from comparison.figures.history import _window, draw_history
 
 
 def inside(axis):
@@ -65,12 +65,17 @@ def test_predict_writes_document_and_picture_and_refuses_without_a_simulation(tm
         predict(file, theory_only=True).plot()
 
 
-def test_a_picture_has_the_same_bytes_when_it_is_drawn_again(tmp_path, monkeypatch):
-    """In each format, without time stamps."""
+@pytest.mark.parametrize("whole", [False, pytest.param(True, marks=pytest.mark.verify)])
+def test_a_picture_has_the_same_bytes_when_it_is_drawn_again(whole, tmp_path, monkeypatch):
+    """In each format, a whole sheet in the one that names its parts; without time stamps."""
     for folder, time in ((tmp_path / "a", "0"), (tmp_path / "b", "1")):
         monkeypatch.setenv("SOURCE_DATE_EPOCH", time)  # Matplotlib's clock
         with style.figure() as (fig, axis):
             axis.plot([0.0, 1.0], [0.0, 1.0], **style.HERMITE)
         style.save(fig, folder, "line", ["png", "svg", "pdf"])
+        if whole:
+            draw_history(pushed_until(0.5), folder, "run", ["svg"])
     files = sorted((tmp_path / "a").iterdir())
-    assert len(files) == 3 and all(file.read_bytes() == (tmp_path / "b" / file.name).read_bytes() for file in files)
+    assert len(files) == 3 + whole and all(
+        file.read_bytes() == (tmp_path / "b" / file.name).read_bytes() for file in files
+    )

@@ -190,9 +190,10 @@ def test_a_beam_that_shears_may_be_deeper_in_the_wall(depth, pull, bends, shears
         assert len(warnings) == len(said) and all(part in line for part, line in zip(said, warnings))
 
 
-def test_no_limit_of_a_beam_that_shears_is_narrower() -> None:
+def test_no_limit_of_a_beam_that_shears_or_of_segments_is_narrower() -> None:
     for path in ("hermite", "self_similar", "exudyn", "exudyn, axial force", "exudyn, explicit or ρ∞ > ½"):
-        assert all(LIMITS[f"{path}, shear"][name] >= limit for name, limit in LIMITS[path].items())
+        for what in ("shear", "segments"):
+            assert all(LIMITS[f"{path}, {what}"][name] >= limit for name, limit in LIMITS[path].items())
 
 
 def test_missing_energy_is_a_share_of_what_there_was_and_of_the_work_of_loads() -> None:
