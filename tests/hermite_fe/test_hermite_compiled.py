@@ -1,5 +1,6 @@
 """Compiled code on disk: an upgraded package never runs yesterday's code; a torn or missing file costs time alone."""
 
+import ast
 import os
 import subprocess
 import sys
@@ -66,6 +67,23 @@ def test_bad_input_and_an_integrator_that_raises_once_leave_what_is_compiled_alo
     with pytest.raises(RuntimeError, match="mine"):
         simulate(**asked, integrator=Raising(1e-3))
     assert len(calls) == 1 and before and sorted(module.FOLDER.rglob("*.nbi")) == before
+
+
+def test_no_number_of_another_package_is_frozen_in_compiled_code() -> None:
+    """What is kept on disk is that of this package's sources alone."""
+    for name in Path(module.__file__).parent.rglob("*.py"):
+        tree = ast.parse(name.read_text())
+        others = {
+            alias.name
+            for node in tree.body
+            if isinstance(node, ast.ImportFrom)
+            and not str(node.module).startswith(("hermite_fe", "numpy", "__future__"))
+            for alias in node.names
+        }
+        for function in (node for node in tree.body if isinstance(node, ast.FunctionDef)):
+            if {getattr(one, "id", "") for one in function.decorator_list} & {"compiled", "compiled_within"}:
+                used = {node.id for line in function.body for node in ast.walk(line) if isinstance(node, ast.Name)}
+                assert not used & others, f"{name.name}: {function.name} uses {used & others}"
 
 
 def test_folders_of_versions_that_nobody_uses_go(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

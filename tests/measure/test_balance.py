@@ -259,3 +259,5 @@ def test_a_run_by_exudyn_has_the_limits_of_its_integrator_and_load(kind, radius,
     assert limited_as(SimpleNamespace(path="exudyn", settings=settings, impact=impact)) == limits
     sheared = SimpleNamespace(path="exudyn", settings=settings, impact=impact.replace(shear_stiffness=400.0))
     assert limited_as(sheared) == f"{limits}, shear"
+    of_segments = settings | {"contact": {"kind": "SegmentFriction"}}
+    assert limited_as(SimpleNamespace(path="exudyn", settings=of_segments, impact=impact)) == f"{limits}, segments"
