@@ -70,6 +70,15 @@ def test_they_agree_as_long_as_the_theory_is_within_2_percent_of_the_stopped_bea
     assert "are not simulated here" in " ".join(found.warnings)
 
 
+@pytest.mark.parametrize(("size", "off", "agree"), [(1e-3, 1.01, True), (1e-3, 1.05, False), (1e3, 1.01, True)])
+def test_they_agree_within_2_percent_however_large_the_numbers_are(size, off, agree, monkeypatch) -> None:
+    numbers = dict.fromkeys(("half_contact_length", "impulse"), size)
+    monkeypatch.setattr(predicting, "instant_numbers", lambda _: {n: Number(off * size, 0.0) for n in numbers})
+    told = SimpleNamespace(times=[SimpleNamespace(**numbers)])
+    found = predicting._agreement([0.5], told, SimpleNamespace(part=lambda reading: None), 0)
+    assert found == ({"from": 0.5, "until": 0.5} if agree else None)
+
+
 def test_a_beam_of_no_damping_keeps_waves_that_grid_viscosity_absorbs_and_its_bars_hold_them() -> None:
     """κ/ν = 1.61 at 0.0098 T*: an independent code has reactions from 14.0 to 15.6 and moments from 1.30 to 1.39."""
     impact = Impact.whole_beam(1.61)
