@@ -128,6 +128,8 @@ def test_gaps_are_compared_wherever_both_runs_have_the_beam_at_the_end_of_their_
         assert apart(one, at(time, fine)) == pytest.approx(0.3)
     runs = [at(times, fine, gap=np.outer(times, 1.0 + fine)) for times in ([0.0, 0.7, 1.0], [0.0, 0.4, 1.2, 1.6])]
     assert apart(*runs) == pytest.approx(0.0, abs=1e-12)
+    late = [at(times, fine, gap=np.outer(np.fmax(times, 0.4), 1.0 + fine)) for times in ([0.0, 1.0], [0.0, 0.4, 1.2])]
+    assert apart(*late) == pytest.approx(0.0, abs=1e-12)  # linear from the instant before, not from an earlier one
     x = np.linspace(0.0, 1.0, 16)  # a gap of x³ is one cubic
     curved = Impact.whole_beam(0.5).replace(wall_curvature=0.4, first_touch=0.2)
     runs = [history_of([0.0, 1.0], x, impact=curved, gap=np.outer([0.0, 1.0], x**3),

@@ -12,6 +12,7 @@ from bent_beam.meshes import NodesMesh, UniformMesh
 from bent_beam.method import method_from_tables
 from exudyn_models import ExudynModel
 from exudyn_models.contacts import Penalty, Rigid, SegmentFriction
+from exudyn_models.contacts.penalty import SpringsRun
 from exudyn_models.contacts.segment_friction import _Run as SegmentRun
 from exudyn_models.elements import ANCFCable
 from exudyn_models.geometry import TrueGeometry
@@ -194,6 +195,18 @@ def test_a_chord_contradicts_its_state_by_the_force_of_its_spring_on_its_gap():
     contact._pushes = lambda q, v: (gap, push, None)
     found = SegmentRun.contradictions(contact, None, None, np.array([False, True, False, True]))
     assert found.tolist() == [1.0, 0.0, 0.0, 1.0]
+
+
+@pytest.mark.parametrize("late", [0.1, 0.9])
+def test_a_plate_that_lands_at_once_does_so_early_or_late_in_a_step_but_not_bit_by_bit(late):
+    """c b V of its dashpots; a difference of the depths of 1e-3 of what it falls in the step is no such landing."""
+    impact = SimpleNamespace(damping_at_landing=3.0, wall_damping=2.0)
+    wall, beam = SimpleNamespace(damping=4.0, weights=np.array([0.5, 1.0])), SimpleNamespace(scaling=None)
+    beam.scaling = SimpleNamespace(impact=impact)
+    contact, speed = SimpleNamespace(beam=beam, wall=wall), np.full((2, 2), 7.0)
+    for apart, force in ((0.0, [[21.0, 42.0]]), (1e-3, [[0.0, 0.0]])):
+        depth = np.array([[-late, -late - apart], [1.0 - late, 1.0 - late - apart]])
+        assert SpringsRun.landing(contact, depth, speed) == pytest.approx(np.array(force))
 
 
 def test_a_contact_without_a_consistent_state_is_counted_and_ends():
