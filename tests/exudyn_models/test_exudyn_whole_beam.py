@@ -1,6 +1,7 @@
 """The whole impact by Exudyn: waves back from the ends, slaps of the tips, the last separation; two walls; rocking."""
 
 import dataclasses
+import math
 import time
 
 import numpy as np
@@ -64,6 +65,15 @@ def test_steps_that_resolve_a_wave_on_an_element_are_taken_unless_they_would_be_
     parts = [(end, ExudynModel().chosen(beam, end)) for end in (0.02, 0.2)]
     work = [(one.mesh.nodes(1.0).size - 1) * end / one.integrator.time_step for end, one in parts]
     assert work == pytest.approx([4e5, 4e5], rel=0.03)
+
+
+@pytest.mark.parametrize("unit", [1.0, 7.0])
+def test_a_thin_front_passes_two_elements_in_the_last_step(unit) -> None:
+    """It spreads as √(2V₀t/K) where bending does not hold it back, and a step h of it is ½h/t long."""
+    thin = Impact(1.0, 1.0, 40.0 * unit, 0.005 / unit, 1.0 / unit)  # lengths in ``unit`` of l*
+    chosen = chosen_steps(GeneralizedAlpha(), 1.0, UniformMesh(0.002 * unit), thin, 0.1 * unit**2)
+    front = math.sqrt(2.0 * 0.1 / 0.005) * unit
+    assert 0.5 * chosen.relative_step * front == pytest.approx(2.0 * 0.002 * unit, rel=1e-3)
 
 
 @pytest.mark.verify
