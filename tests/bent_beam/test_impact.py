@@ -122,3 +122,13 @@ def test_a_number_obeys_its_bounds_and_an_error_without_advice_says_none():
 def test_a_wall_from_end_to_end_of_the_beam_is_the_whole_wall() -> None:
     beam = Impact.whole_beam(0.5)
     assert beam.replace(wall_from=-1.0, wall_to=1.0) == beam.replace(wall_to=1.0) == beam
+
+
+def test_a_stop_s_dashpot_slows_at_once_a_beam_that_shears_and_has_no_damping_of_its_own() -> None:
+    """F = c(V − F/2√(κ_sGAμ)): it sends off two shear waves, at an end one; any damping spreads the jump."""
+    middle = Impact.whole_beam(0.5).replace(wall_stiffness=1e3, wall_damping=4.0, wall_from=0.0, wall_to=0.0)
+    sheared = middle.replace(shear_stiffness=400.0)
+    end = sheared.replace(wall_from=1.0, wall_to=1.0)
+    forces = [4.0, 4.0 / (1.0 + 4.0 / 40.0), 4.0 / (1.0 + 4.0 / 20.0), 4.0, 4.0]
+    kinds = (middle, sheared, end, sheared.replace(damping=1e-6), sheared.replace(wall_to=0.5))
+    assert [impact.damping_at_landing for impact in kinds] == pytest.approx(forces)

@@ -16,6 +16,7 @@ from bent_beam import Impact
 from bent_beam.meshes import UniformMesh
 from bent_beam.method import method_from_tables
 from exudyn_models import CONTACTS, ELEMENTS, INTEGRATORS, ExudynModel
+from exudyn_models.building import _equal_elements
 from exudyn_models.contacts import Penalty, SegmentFriction
 from exudyn_models.contacts.penalty import PenaltyRun
 from exudyn_models.elements import GeometricallyExact
@@ -47,6 +48,13 @@ def test_a_second_wall_pushes_the_other_way():
     late = int(np.argmax(impulse)) + 1
     assert impulse[-1] < 0.9 * impulse.max() and force[:late].min() > -0.01 * force.max()
     assert force[late:].max() < 0.01 * force.max() and force[late:].min() < -0.05 * force.max()
+
+
+def test_the_equal_elements_of_a_zone_change_with_their_unit():
+    """Lengths in ``unit`` of l*, times in its square."""
+    impacts = [(Impact(1.0, 1.0, 40.0 * unit, 0.5 / unit, 1.0 / unit), 0.1 * unit**2) for unit in (1.0, 7.0)]
+    one, other = (np.array(_equal_elements(*asked).places) for asked in impacts)
+    assert one.size == other.size and other == pytest.approx(7.0 * one, rel=1e-9)
 
 
 def test_the_ends_bear_moment_and_shear_of_a_bend_in_si_units():
