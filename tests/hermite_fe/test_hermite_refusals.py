@@ -61,7 +61,7 @@ REFUSED = [
     (lambda: simulate(SHORT, save=1), "save must be"),
     (lambda: simulate(SHORT, mesh=UniformMesh(1e-9)), r"^mesh\.element_length is too small"),
     (lambda: simulate(Impact.dimensionless(0.5, epsilon_psi=1.0, length=40.0)), "into the wall before the impact"),
-    (lambda: simulate(SHORT.replace(rotation=-3.0, first_touch=0.5)), r"rotation must not .* at -0\.5 m/s \(got -3.0\)"),
+    (lambda: simulate(SHORT.replace(rotation=-3.0, first_touch=0.5)), r"rotation must not .* at -0\.5 m/s"),
     (lambda: integrate(ball(), np.zeros(2), np.zeros(1), MoreauJean(1e-3), 0.1), r"q must have shape \(1,\) .*\(2,\)"),
     (lambda: integrate(ball(), np.zeros(1), np.zeros(0), MoreauJean(1e-3), 0.1), r"v must have shape"),
     # contacts
