@@ -48,6 +48,7 @@ def test_a_refined_mesh_has_twice_the_elements_and_steps():
     changed |= dict.fromkeys(("front_resolution", "growth", "step_ratio"), 0.5)
     assert {name: ratio for name, ratio in ratios.items() if ratio != 1.0} == changed
     assert SelfSimilarFE(mesh=mesh).refined(2.0).chosen_for(Impact.dimensionless(0.5), 0.1).mesh == fine
+    assert SelfSimilarFE(refine=1e-3).refine == 1e-3  # any factor above 0
 
 
 def test_a_nearly_flat_beam():
