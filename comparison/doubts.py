@@ -71,7 +71,7 @@ def doubts(impact: Impact, section: Section | None) -> list[str]:
     if impact.opposite_wall is not None and impact.wall_curvature:
         found.append("the second wall is flat and the first one curved: their distance varies along the beam")
     force, pull = impact.axial_force, impact.axial_force / impact.buckling_load
-    free = impact.natural_curvature in (None, impact.curvature) and not impact.supported
+    free = impact.unbent_curvature == impact.curvature and not impact.supported
     if abs(pull) > STRAIGHTENED and impact.curvature and impact.tension_direction == "axis" and free:
         does = "tension, which straightens it" if pull > 0.0 else "compression, which bends it further"
         at_rest = f" (at rest to about {float(f'{100.0 / (1.0 + pull):.2g}'):g} % of its height)" if pull > -1.0 else ""

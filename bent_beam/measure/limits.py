@@ -32,7 +32,7 @@ steps close the energy to their own order alone and have forces within them: the
 κ/ν = 0.25 and 1.5. An axial force works on the stretch of all of the beam: 3e-5 at N = 20 EI/ℓ². A beam that shears
 is deeper in the wall: Hermite's contact is then at velocity level (0.014 under a load), Exudyn's penalty soft
 (0.02 of a flat beam with a damping ratio of 5 %, and a pull of 1e-6); that limit is two and a half times the worst.
-Chords of ``segment_friction`` open and close by forces within its contact_tolerance, and limits are two and three times
+Chords of ``segment_friction`` open and close by forces within its contact_tolerance. Its limits are two and three times
 the worst: ten runs pulled by 0.003 at most, ``law`` was 2e-4.
 ``law``: one step with which the solver keeps a wrong state of the contact may have 4e-3."""
 IMPLICIT = ("GeneralizedAlpha", "Newmark", "Trapezoidal")

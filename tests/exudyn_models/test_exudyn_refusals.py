@@ -200,10 +200,9 @@ def test_a_chord_contradicts_its_state_by_the_force_of_its_spring_on_its_gap():
 @pytest.mark.parametrize("late", [0.1, 0.9])
 def test_a_plate_that_lands_at_once_does_so_early_or_late_in_a_step_but_not_bit_by_bit(late):
     """c b V of its dashpots; a difference of the depths of 1e-3 of what it falls in the step is no such landing."""
-    impact = SimpleNamespace(damping_at_landing=3.0, wall_damping=2.0)
-    wall, beam = SimpleNamespace(damping=4.0, weights=np.array([0.5, 1.0])), SimpleNamespace(scaling=None)
-    beam.scaling = SimpleNamespace(impact=impact)
-    contact, speed = SimpleNamespace(beam=beam, wall=wall), np.full((2, 2), 7.0)
+    scaling = SimpleNamespace(impact=SimpleNamespace(damping_at_landing=3.0, wall_damping=2.0))
+    wall = SimpleNamespace(damping=4.0, weights=np.array([0.5, 1.0]))
+    contact, speed = SimpleNamespace(beam=SimpleNamespace(scaling=scaling), wall=wall), np.full((2, 2), 7.0)
     for apart, force in ((0.0, [[21.0, 42.0]]), (1e-3, [[0.0, 0.0]])):
         depth = np.array([[-late, -late - apart], [1.0 - late, 1.0 - late - apart]])
         assert SpringsRun.landing(contact, depth, speed) == pytest.approx(np.array(force))
