@@ -24,8 +24,8 @@ from comparison.questions import Question
 from comparison.store import RunStore
 from exudyn_models import ExudynModel
 from hermite_fe import HermiteFE
-from hermite_fe.contacts import MiddleContact
-from hermite_fe.integrators import Midpoint, SignoriniPosition
+from hermite_fe.contacts import MiddleContact, NodeContact
+from hermite_fe.integrators import Midpoint, MoreauJean, SignoriniPosition
 
 COARSE = HermiteFE(mesh=UniformMesh(1.0 / 25))
 
@@ -165,16 +165,35 @@ def test_the_command_gives_numbers_with_bars_figures_and_the_stress_of_the_large
     assert 0.0 <= found["si"]["peak_moment_place"]["value"] <= 0.5
 
 
-def test_a_contact_or_integrator_that_is_stated_is_that_of_every_run_of_a_band() -> None:
-    stated = HermiteFE(contact=MiddleContact(), integrator=SignoriniPosition())
-    every = [one for _, one in Question(problem(2.0, 0.0), stated, band=(20, 1)).companions().values()]
-    assert [(type(one.contact), type(one.integrator)) for one in every] == 19 * [(MiddleContact, SignoriniPosition)]
+def test_the_runs_of_a_band_are_coarser_of_many_sizes_and_of_the_contact_and_integrator_that_are_stated() -> None:
+    contact = {"contact": MiddleContact()}
+    for stated in (contact, contact | {"integrator": SignoriniPosition()}):
+        every = Question(problem(2.0, 0.0), HermiteFE(**stated), band=(20, 1)).companions().values()
+        kinds, finer = [(type(one.contact), type(one.integrator)) for _, one in every], [one.refine for _, one in every]
+        assert kinds == 19 * [(MiddleContact, SignoriniPosition)], stated
+        assert 2.0**-1.5 < min(finer) < 0.42 and 0.6 < max(finer) < 2.0**-0.5, stated
 
 
-def test_the_runs_of_a_band_are_coarser_and_of_many_sizes() -> None:
-    runs = Question(problem(2.0, 0.0), HermiteFE(contact=MiddleContact()), band=(20, 1)).companions().values()
-    finer = [one.refine for _, one in runs]
-    assert 2.0**-1.5 < min(finer) < 0.42 and 0.6 < max(finer) < 2.0**-0.5
+def test_few_saved_instants_hold_the_time_that_is_asked_for() -> None:
+    for save in (8, 10, 21, 200):
+        question = Question(Impact.whole_beam(2.0, relative_damping=1e-2), COARSE, 0.05, save)
+        history = question.run(question.run_by)
+        assert np.abs(history.time - 0.05).min() < 5e-4 and history.time[-1] == pytest.approx(0.055, abs=5e-4)
+
+
+def test_the_companion_that_absorbs_no_waves_has_ten_elements_in_the_root_of_time() -> None:
+    """It is run of hardly any damping, η < 3e-5 T*, from 1e-5 T* on, and until waves have run: 3e-3 T*."""
+    _, other = Question(problem(0.5, 0.0), HermiteFE(), 1e-4).companions()["waves_absorbed"]
+    assert other.mesh.element_length == pytest.approx(0.1 * 1e-4**0.5)
+    asked = ((2.9e-5, 1.1e-5), (2.9e-5, 2.9e-3), (3.1e-5, 1e-4), (2.9e-5, 0.9e-5), (2.9e-5, 3.1e-3))
+    found = [Question(problem(0.5, damping), HermiteFE(), until).companions() for damping, until in asked]
+    assert ["waves_absorbed" in one for one in found] == [True, True, False, False, False]
+
+
+def test_the_companion_of_nodes_that_rebound_has_nodes_that_do_not() -> None:
+    rebounding = dataclasses.replace(COARSE, integrator=MoreauJean(theta=0.5), contact=NodeContact(restitution=0.5))
+    (other,) = rebounding.cross_checks(problem(0.5, 1e-3)).values()
+    assert isinstance(other.contact, NodeContact) and other.contact.restitution == 0.0
 
 
 @pytest.mark.parametrize(("share", "times"), [(0.4, 1), (0.1, 2 ** (2 / 3)), (0.04, 2), (0.01, 10**0.5), (0.005, 4)])

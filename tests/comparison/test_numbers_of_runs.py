@@ -30,19 +30,26 @@ TIME |= {"moment_left_out": 0.0, "peak_force_sharp": 0.0}
 ENERGY = {"initial": 1.0, "work_of_loads": 0.0, "loss_algorithmic": 0.0, "loss_viscous": 0.0, "defect": 0.0}
 
 
-def runs(reading, *others, damping=1e-3, until=LATE) -> Runs:
+def runs(reading, *others, kappa=0.5, damping=1e-3, until=LATE, band=None, **change) -> Runs:
     """Runs of a beam with these readings, that of the run itself first."""
     run, *companions = (Run(one, [], 1.0, 1) for one in (reading, *others))
-    question = Question(problem(0.5, damping), COARSE, until)
+    question = Question(problem(kappa, damping).replace(**change), COARSE, until, band=band)
     return Runs(question, run, {f"companion {i}": one for i, one in enumerate(companions)})
 
 
-def test_late_and_without_damping_a_number_is_a_mean_with_two_standard_deviations() -> None:
-    drawn = runs({"impulse": 1.0}, {"impulse": 2.0}, {"impulse": 3.0}, damping=0.0)
+def whole(*readings, **asked) -> Runs:
+    return runs(*readings, **{"kappa": 2.0, "until": None} | asked)
+
+
+def bounced(made: Runs) -> Bounce:
+    return Bounce(case_of(made.question.impact), whole_numbers(made), made)
+
+
+@pytest.mark.parametrize(("damping", "value", "bar"), [(0.0, 2.0, 2.0), (1e-3, 1.0, FACTOR * (1.0 + 2.0))])
+def test_late_and_without_damping_a_number_is_a_mean_with_two_standard_deviations(damping, value, bar) -> None:
+    drawn = runs({"impulse": 1.0}, {"impulse": 2.0}, {"impulse": 3.0}, damping=damping)
     number = numbers_of(drawn, ["impulse"])["impulse"]
-    assert (number.value, number.bar) == pytest.approx((2.0, 2.0))
-    damped = numbers_of(dataclasses.replace(drawn, question=runs({}).question), ["impulse"])["impulse"]
-    assert (damped.value, damped.bar) == pytest.approx((1.0, FACTOR * (1.0 + 2.0)))
+    assert (number.value, number.bar) == pytest.approx((value, bar))
 
 
 @pytest.mark.parametrize(
@@ -68,19 +75,16 @@ def test_curves_that_cross_at_the_time_asked_do_not_agree() -> None:
     assert instant_numbers(runs(TIME, crossing))["impulse"].bar == pytest.approx(FACTOR * 0.02)
     above = TIME | {"impulse": 1.02, "impulse_around": [0.92, 1.02, 1.12]}
     assert instant_numbers(runs(TIME, above))["impulse"].bar == pytest.approx(FACTOR * 0.02)  # it counts once
-    rigid = runs(TIME, TIME | {"impulse_around": [0.9, 1.04, 1.1]}, until=2.0)
-    soft = dataclasses.replace(rigid.question, impact=rigid.question.impact.replace(wall_stiffness=1e4))
-    assert instant_numbers(rigid)["reaction"].bar == 0.0
-    found = instant_numbers(dataclasses.replace(rigid, question=soft))["reaction"]
-    assert found.bar == pytest.approx(FACTOR * 0.04 / 0.4)
+    both = TIME, TIME | {"impulse_around": [0.9, 1.04, 1.1]}
+    assert instant_numbers(runs(*both, until=2.0))["reaction"].bar == 0.0
+    soft = instant_numbers(runs(*both, until=2.0, wall_stiffness=1e4))
+    assert soft["reaction"].bar == pytest.approx(FACTOR * 0.04 / 0.4)
 
 
-def test_the_pressure_of_a_landing_is_the_same_in_every_run_and_has_a_bar_all_the_same() -> None:
-    rigid = runs(TIME, TIME)
-    soft = dataclasses.replace(rigid.question, impact=rigid.question.impact.replace(wall_stiffness=1e4))
-    assert instant_numbers(dataclasses.replace(rigid, question=soft))["peak_pressure"].bar == pytest.approx(1e-4)
-    other = dataclasses.replace(runs(TIME, TIME | {"peak_pressure": 1.01}), question=soft)
-    assert instant_numbers(other)["peak_pressure"].bar == pytest.approx(FACTOR * 0.01)
+@pytest.mark.parametrize(("pressure", "bar"), [(1.0, 1e-4), (1.01, FACTOR * 0.01)])
+def test_the_pressure_of_a_landing_is_the_same_in_every_run_and_has_a_bar_all_the_same(pressure, bar) -> None:
+    found = instant_numbers(runs(TIME, TIME | {"peak_pressure": pressure}, wall_stiffness=1e4))
+    assert found["peak_pressure"].bar == pytest.approx(bar)
 
 
 def test_a_half_length_that_a_companion_does_not_have_is_as_unsure_as_it_is_long() -> None:
@@ -95,23 +99,20 @@ def test_what_a_run_and_its_companion_share_stays_in_the_bar() -> None:
     early = instant_numbers(runs(TIME, TIME, until=EARLY))
     assert early["impulse"].bar == early["peak_moment"].bar == pytest.approx(2e-3)
     assert instant_numbers(runs(TIME, TIME))["peak_moment"].bar == 0.0
-    thrown = runs(TIME | {"lift": 0.05}, TIME, until=EARLY, damping=0.0)
     for change, rightly in (({}, False), ({"acceleration": -1.0}, True), ({"wall_stiffness": 1e3}, True)):
-        question = dataclasses.replace(thrown.question, impact=thrown.question.impact.replace(**change))
-        lifted = instant_numbers(dataclasses.replace(thrown, question=question))["impulse"]
+        lifted = instant_numbers(runs(TIME | {"lift": 0.05}, TIME, until=EARLY, damping=0.0, **change))["impulse"]
         assert (lifted.parts["lift"] == 0.0) is rightly, "a load or a wall that gives way may lift the zone"
     three = TIME | {name: 3.0 for name in OF_INSTANT}  # they are shares of the number
     light, early = (instant_numbers(runs(three, three, damping=2e-4, until=until)) for until in (LATE, EARLY))
     assert light["peak_moment"].bar == pytest.approx(3e-2) and early["impulse"].parts["grid_viscosity"] == 6e-3
-    point = dataclasses.replace(runs(TIME, TIME), question=Question(problem(1.01, 2e-4), COARSE, LATE))
-    assert instant_numbers(point)["peak_moment"].bar == 0.0, "single nodes chatter on a zone alone"
+    point = instant_numbers(runs(TIME, TIME, kappa=1.01, damping=2e-4))
+    assert point["peak_moment"].bar == 0.0, "single nodes chatter on a zone alone"
     assert instant_numbers(runs(TIME, TIME, damping=2e-4))["peak_moment"].bar == pytest.approx(1e-2)
     assert instant_numbers(runs(TIME, TIME, TIME, damping=0.0))["peak_moment"].bar == pytest.approx(1e-2)
 
 
 def last_contact(one, other, **change) -> Number:
-    question = Question(problem(2.0, 1e-3).replace(**change), COARSE)
-    number = whole_numbers(dataclasses.replace(runs(one, other), question=question))["last_contact"]
+    number = whole_numbers(whole(one, other, **change))["last_contact"]
     assert isinstance(number, Number)
     return number
 
@@ -155,15 +156,14 @@ def test_largest_moments_of_curves_that_differ_around_them_do_not_agree() -> Non
             read | {"peak_moment": moment, "peak_moment_time": time[8], "moment_around": [time, curve]}
             for moment, time, curve in ((1.0, times, own), (largest, times + later, other))
         ]
-        made = dataclasses.replace(runs(*both), question=Question(problem(2.0, 1e-3), COARSE))
-        assert whole_numbers(made)["peak_moment"].bar == pytest.approx(FACTOR * changed)
+        assert whole_numbers(whole(*both))["peak_moment"].bar == pytest.approx(FACTOR * changed)
 
 
 @pytest.mark.parametrize("band", [None, (2, 0)])
 def test_a_single_run_that_ends_at_the_wall_is_told_with_the_numbers_that_it_enters(band) -> None:
-    made = runs(*(whole_reading(pushed_until(end)) for end in (0.5, 9.0)))
-    made = dataclasses.replace(made, question=Question(problem(2.0, 0.0 if band else 1e-3), COARSE, band=band))
-    found = Bounce(case_of(made.question.impact), whole_numbers(made), made)
+    readings = (whole_reading(pushed_until(end)) for end in (0.5, 9.0))
+    made = whole(*readings, damping=0.0 if band else 1e-3, band=band)
+    found = bounced(made)
     assert found.outcome.left and not found.left and found.to_dict()["left"] is False
     assert any("not left the wall" in warning for warning in found.warnings)
     slow = Impact(1.0, 1e6, 2.0, 2.0, 1e-3, damping=0.0 if band else 1.0, acceleration=1e-6)  # T* is 1000 s
@@ -267,8 +267,7 @@ def test_a_straight_beam_that_its_wall_presses_evenly_has_no_moment_of_round_off
 
 def test_what_is_told_beside_the_numbers_is_what_the_document_holds() -> None:
     read = whole_reading(pushed_until(0.5))
-    made = dataclasses.replace(runs(read, read), question=Question(problem(2.0, 1e-3), COARSE))
-    document = Bounce(case_of(made.question.impact), whole_numbers(made), made).to_dict()
+    document = bounced(whole(read, read)).to_dict()
     state = {"momentum_residual": 1e-3, "energy_of_state": 2e-3, "gap_of_push": 3e-3, "penetration": 4e-3, "pull": 5e-3}
     loss = {"loss": 0.2, "lowest_frequency": 10.0, "highest_frequency": 200.0, "deviation": 0.03}
     document |= state | {"hysteretic_loss": loss, "span": [0.0, 0.05], "si": document["si"] | {"time_unit": 0.03}}
@@ -282,8 +281,7 @@ def test_what_is_told_beside_the_numbers_is_what_the_document_holds() -> None:
 def test_a_document_holds_the_damping_of_its_beam_and_what_the_budget_leaves() -> None:
     read = whole_reading(pushed_until(0.5))
     read["energy"] = dict.fromkeys(read["energy"], 0.0) | {"initial": 3.0, "work_of_loads": -1.0, "defect": -0.2}
-    made = dataclasses.replace(runs(read, read), question=Question(problem(2.0, 3e-3), COARSE))
-    document = Bounce(case_of(made.question.impact), whole_numbers(made), made).to_dict()
+    document = bounced(whole(read, read, damping=3e-3)).to_dict()
     assert document["damping"] == pytest.approx(3e-3)
     assert document["energy_residual"] == document["energy_defect"] == pytest.approx(0.05)
 
