@@ -1,5 +1,4 @@
-"""Where the project is, and how long it is tried: ``FUZZ`` (`make fuzz`) draws new input, from a seed that every worker
-process inherits."""
+"""Where the project is; ``FUZZ`` (`make fuzz`) draws new input, from a seed that every worker process inherits."""
 
 import os
 import random

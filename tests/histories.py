@@ -48,8 +48,7 @@ def history_of(
 
 
 def pushed_until(end: float, *, last: float = 2.0, again: float | None = None) -> ImpactHistory:
-    """A rigid beam that the wall pushes from first touch to ``end``, and as long from ``again`` on, T*, at 5.8 μℓV₀ a
-    T*; saved until ``last``, T*."""
+    """A rigid beam, pushed from first touch to ``end`` and as long from ``again`` on at 5.8 μℓV₀ a T*. Times in T*."""
     time, x = np.linspace(0.0, last, round(20 * last) + 1), np.linspace(0.0, 1.0, 5)
     impulse = np.zeros((time.size, x.size))
     impulse[:, 0] = 2.9 * np.minimum(time, end)

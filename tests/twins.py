@@ -133,8 +133,7 @@ def retold(history: ImpactHistory, base: Mapping[str, float]) -> ImpactHistory:
 
 
 def agree(one: Any, other: Any, units: Mapping[str, str] = {}, base: Mapping[str, float] = EXACT) -> None:
-    """``other``, attribute by attribute and part by part, is ``one`` times its unit; what has none in ``units`` is the
-    same number."""
+    """``other`` is ``one`` times its unit, attribute by attribute; what has none in ``units`` is the same number."""
     for name, value in vars(one).items():
         theirs, unit = getattr(other, name), factor(units.get(name, "1"), base)
         if isinstance(value, dict) and all(isinstance(part, float) for part in value.values()):

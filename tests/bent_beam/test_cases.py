@@ -290,6 +290,5 @@ def test_assignments_are_laid_over_and_a_mistake_for_one_path_is_found_with_anot
     assert found.mesh == GradedMesh(element_length=2.5e-3, growth=1.25)
     assert found.tables == {"hermite": {"contact": {"kind": "node"}}}
     assert found.method("hermite").mesh == found.mesh and case().method("hermite").mesh is None
-    mistaken = case(exudyn={"contact": {"kind": "rigit"}})
     with pytest.raises(InputError, match="rigit"):
-        mistaken.method("hermite")
+        case(exudyn={"contact": {"kind": "rigit"}}).method("hermite")

@@ -46,12 +46,10 @@ def test_error_bars_of_a_bounce_hold_the_converged_value(path, elements, widest)
 
 
 def test_a_bounce_off_a_wall_that_gives_way_has_its_largest_force_and_gives_its_energy_back() -> None:
-    soft = problem(0.5, 1e-2).replace(wall_stiffness=1e3)
-    found = bounce(soft, HermiteFE(mesh=UniformMesh(0.1)), save=500)
+    found = bounce(problem(0.5, 1e-2).replace(wall_stiffness=1e3), HermiteFE(mesh=UniformMesh(0.1)), save=500)
     assert set(found.numbers["peak_force"].parts) == {"mesh_and_step", "sharp"}
     assert found.numbers["peak_force"].bar < 0.02
-    document = found.to_dict()
-    assert document["si"]["peak_force"]["value"] == pytest.approx(found.history.array("peak_force")[-1])
+    assert found.to_dict()["si"]["peak_force"]["value"] == pytest.approx(found.history.array("peak_force")[-1])
     assert found.numbers["restitution"].known > 0.34  # more than off a rigid wall, whose impacts lose 1 − e²
     budget = found.history.energy_budget()
     assert budget["contact_energy"] == budget["loss_impact"] == 0.0 and budget["loss_material"] > 0.0

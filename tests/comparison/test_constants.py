@@ -72,8 +72,7 @@ HELD_AGAINST_THEORY = [
 @pytest.mark.parametrize(("method", "where", "name", "kappa", "first", "within"), HELD_AGAINST_THEORY)
 def test_a_constant_halved_or_doubled_leaves_the_theory_s_numbers(method, where, name, kappa, first, within, changed):
     """λ₀ and r₀; under a load λ₁ and r₁, for which ε → 0 is extrapolated to from loads of any size."""
-    row = row_of(changed(method, where, name), kappa, first)
-    for number in row.compared().values():
+    for number in row_of(changed(method, where, name), kappa, first).compared().values():
         assert abs(number.relative(1.0 if first else 0.0)) < within
 
 

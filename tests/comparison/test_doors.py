@@ -100,8 +100,7 @@ def check(case: Case, share: float) -> None:
     assert all(same(predicted[name], whole["si"][name]) for name in ("peak_moment", "last_contact"))
     moved = separated.runs.part(lambda one: one | {"whole": one["whole"] | {"peak_moment_place": 0.5}})
     assert replace(separated, runs=moved).to_dict()["peak_moment_place"] == 0.5 * case.impact.half_length
-    unit = scales(case.impact)["moment"]
-    assert separated.numbers["peak_moment"].known == whole["peak_moment"]["value"] * unit
+    assert separated.numbers["peak_moment"].known == whole["peak_moment"]["value"] * scales(case.impact)["moment"]
     assert predicted["span"] == whole["span"] and whole["span"][1] > whole["si"]["last_contact"]["value"]
     if case.impact.wall_stiffness is None:
         assert predicted["peak_force"] is None
@@ -231,8 +230,7 @@ def test_a_case_may_be_asked_by_its_tables_and_answers_be_written_to_a_folder_by
     tables = read_toml(CASES / "tube.toml", "case file")
     asked = predict(tables, 1e-4, theory_only=True), predict(CASES / "tube.toml", 1e-4, theory_only=True)
     assert asked[0].to_dict() == asked[1].to_dict()
-    found = match("self_similar", kappa_over_nu=0.5)
-    assert [row.kappa_over_nu for row in found] == [0.5]
+    assert [row.kappa_over_nu for row in match("self_similar", kappa_over_nu=0.5)] == [0.5]
     swept = Swept("", "hermite", {"impact.velocity": [1.0]}, [Row({"impact.velocity": 1.0}, reason="none")])
     assert all(file.parent == tmp_path for file in swept.write(str(tmp_path)))
 

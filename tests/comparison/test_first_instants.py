@@ -154,8 +154,7 @@ def test_a_zone_that_its_scheme_throws_off_the_wall_is_pushed_too_hard_and_the_b
 
 
 def test_a_moment_of_the_first_instants_is_still_resolved_soon_after() -> None:
-    """0.5720 at 0.0029 T*, on elements down to 1/3200 of the half beam and by a code of differences: soon after, a
-    whole beam's elements and half of them agree on less."""
+    """0.5720 at 0.0029 T*, on elements down to 1/3200 of the half beam and by a code of differences."""
     impact = Impact.whole_beam(0.1467, relative_damping=1e-4).replace(wall_from=-0.06, wall_to=0.06)
     moment = numbers(impact, 0.004)["peak_moment"]
     assert abs(moment.known - 0.572) <= moment.spread < 0.01
@@ -166,8 +165,7 @@ def test_a_moment_of_the_first_instants_is_still_resolved_soon_after() -> None:
     [(0.6, 0.7577, 1.3e-4, 0.002), (0.43, 0.6524, 1.3e-4, 0.016), (0.6, 0.7577, 2e-5, 0.016)],
 )
 def test_the_largest_moment_so_far_holds_that_of_a_damped_start(kappa, peak, damping, end) -> None:
-    """Damping lifts the bow at first: the moment in its middle rises, at about η, to a value of κ/ν alone, and falls
-    again. Elements that do not resolve it widen the bar."""
+    """Damping lifts the bow at first: its middle moment rises, at about η, to a value of κ/ν alone, and falls."""
     found = numbers(Impact.whole_beam(kappa, relative_damping=damping), end)["peak_moment"]
     assert abs(found.known - peak) <= found.spread or found.known > peak
     assert end > 0.01 or found.spread < 0.01 * peak
@@ -175,15 +173,10 @@ def test_the_largest_moment_so_far_holds_that_of_a_damped_start(kappa, peak, dam
 
 @pytest.mark.parametrize(
     ("path", "load", "half", "error"),
-    [
-        ("hermite", 0.2, 1.277, 0.006),
-        ("hermite", -0.2, 0.760, 0.003),
-        ("self_similar", -0.2, 0.760, 0.003),
-    ],
+    [("hermite", 0.2, 1.277, 0.006), ("hermite", -0.2, 0.760, 0.003), ("self_similar", -0.2, 0.760, 0.003)],
 )
 def test_a_zone_that_does_not_spread_as_the_root_of_time_is_as_long_as_by_another_code(path, load, half, error):
-    """Hermite cubics with an active set, converged by an outsider; the pushes of a tenth of the time carried as √t are
-    3 % off."""
+    """By another code's active set, converged; the pushes of a tenth of the time carried as √t are 3 % off."""
     impact = Impact.dimensionless(0.5, length=40.0).replace(acceleration=load)
     found = numbers(impact, 1.0, path)["half_contact_length"]
     assert abs(found.known - half) <= found.spread + error and found.spread < 0.04 * half

@@ -40,11 +40,7 @@ def off(number, least=0.0):
 
 @pytest.mark.parametrize(
     ("method", "kappa", "of_lambda0", "of_r0"),
-    [
-        (HermiteFE(), 0.25, 1e-3, 5e-4),
-        (SelfSimilarFE(), 0.5, 2e-4, 1e-4),
-        (ExudynModel(refine=0.5), 0.5, 1e-3, 5e-4),
-    ],
+    [(HermiteFE(), 0.25, 1e-3, 5e-4), (SelfSimilarFE(), 0.5, 2e-4, 1e-4), (ExudynModel(refine=0.5), 0.5, 1e-3, 5e-4)],
 )
 def test_every_path_matches_the_leading_order(method, kappa, of_lambda0, of_r0):
     row = answer(MatchQuestion(method, kappa, error_bars="drift"), KEEP)
@@ -187,8 +183,7 @@ def test_bars_wider_than_2_percent_of_leading_and_10_of_first_order_are_a_warnin
 
 
 def test_a_wall_that_gives_way_has_its_largest_force_in_the_row_and_says_from_when_on_it_is_as_a_rigid_one():
-    """f(½, ½) = 3.155, whatever the stiffness; a zone with c = √(kμ) comes within 2 % of a rigid wall's after
-    200 √(μ/k)."""
+    """f(½, ½) = 3.155, whatever k; with c = √(kμ) a zone comes within 2 % of a rigid wall's after 200 √(μ/k)."""
     row, stiff = (
         answer(MatchQuestion(HermiteFE(refine=refine), 0.5, error_bars="drift", wall=(stiffness, 0.5)), KEEP)
         for stiffness, refine in ((1e5, 0.5), (5e6, 0.25))
@@ -200,8 +195,7 @@ def test_a_wall_that_gives_way_has_its_largest_force_in_the_row_and_says_from_wh
     head, _, line, *_ = match_table([row]).splitlines()
     head, line = (re.split(r"\s{2,}", text.strip()) for text in (head, line))
     assert (head[2:4], head[6]) == (["lambda0", "%"], "F/(V0 sqrt(mu)(EI k)^1/4)") and row.wall == (1e5, 0.5)
-    off = 100.0 * row.lambda0.relative()
-    assert (float(line[3]), line[6]) == (pytest.approx(off, abs=6e-4), str(row.peak_force))
+    assert (float(line[3]), line[6]) == (pytest.approx(100.0 * row.lambda0.relative(), abs=6e-4), str(row.peak_force))
     assert row.peak_force.theory == pytest.approx(3.155, rel=1e-3)
 
 

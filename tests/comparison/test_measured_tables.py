@@ -127,8 +127,7 @@ def test_a_run_gives_the_restitution_of_the_page(method, kappa, damping, cell, l
     value, unit = stated(cell)
     within = max(1.01 * unit, ROUNDING if 0.99e-4 < unit < 1.01e-4 else least)
     impact = Impact.whole_beam(float(kappa), relative_damping=stated(damping)[0])
-    found = whole_impact(simulate_to_separation(method, impact)).restitution
-    assert found == pytest.approx(value, abs=within)
+    assert whole_impact(simulate_to_separation(method, impact)).restitution == pytest.approx(value, abs=within)
 
 
 # --- the table *Validation*, which README and site share: commands below it give its numbers inside its bars ----------

@@ -68,8 +68,7 @@ def test_companions_that_agree_better_than_whole_beams_can_leave_a_ten_thousandt
 
 
 def test_curves_that_cross_at_the_time_asked_do_not_agree() -> None:
-    """Nor do forces before a wall that gives way: their means over halves of the window, 0.4 long, differ by ±0.04/0.2,
-    over all of it not at all."""
+    """Nor do forces before a soft wall: means over halves of the window, 0.4 long, differ by ±0.04/0.2."""
     crossing = TIME | {"impulse_around": [0.92, 1.0, 1.08]}
     assert instant_numbers(runs(TIME, TIME))["impulse"].bar == 0.0
     assert instant_numbers(runs(TIME, crossing))["impulse"].bar == pytest.approx(FACTOR * 0.02)
@@ -119,8 +118,7 @@ def last_contact(one, other, **change) -> Number:
 
 @pytest.mark.parametrize(("other", "shift"), [((0.3, 0.5), 0.0), ((0.35, 0.45), 0.05), ((0.8, None), 0.2)])
 def test_the_bar_of_the_last_contact_holds_the_shift_of_its_beginning(other, shift) -> None:
-    """Contact from 0.5 to 0.8 T*, after one that ended 0.2 T* before. The companion's begins 0.05 T* sooner, or goes on
-    from that one: the two are 0.2 T* apart, and no more is uncertain."""
+    """From 0.5 to 0.8 T*, 0.2 T* after another contact; the companion's begins 0.05 T* sooner, or goes on from that."""
     number = last_contact(*(whole_reading(pushed_until(end, again=again)) for end, again in ((0.3, 0.5), other)))
     assert number.value == pytest.approx(0.8, abs=0.03)
     assert number.parts["companion 0"] == pytest.approx(0.0, abs=1e-9)
@@ -161,8 +159,7 @@ def test_largest_moments_of_curves_that_differ_around_them_do_not_agree() -> Non
 
 @pytest.mark.parametrize("band", [None, (2, 0)])
 def test_a_single_run_that_ends_at_the_wall_is_told_with_the_numbers_that_it_enters(band) -> None:
-    readings = (whole_reading(pushed_until(end)) for end in (0.5, 9.0))
-    made = whole(*readings, damping=0.0 if band else 1e-3, band=band)
+    made = whole(*(whole_reading(pushed_until(end)) for end in (0.5, 9.0)), damping=0.0 if band else 1e-3, band=band)
     found = bounced(made)
     assert found.outcome.left and not found.left and found.to_dict()["left"] is False
     assert any("not left the wall" in warning for warning in found.warnings)
@@ -184,8 +181,7 @@ def test_a_beam_that_leaves_slowly_may_touch_again_where_twice_the_bar_of_its_ve
         one = whole_reading(pushed_until(0.3, again=0.5)) | {"returns": ((1.0, 0.05), (1.5, 0.08))}
         other = one | {"restitution": one["restitution"] + change}
         assert last_contact(one, other).parts["returns"] == pytest.approx(later, abs=0.03)
-    held = last_contact(one, other, left_end="hinged")
-    assert held.parts["returns"] == 0.0  # what its other points do is not told
+    assert last_contact(one, other, left_end="hinged").parts["returns"] == 0.0  # nothing is told of its other points
 
 
 def test_the_last_part_of_a_contact_may_be_none_where_it_changes_the_velocity_by_less_than_its_bar() -> None:

@@ -1,5 +1,4 @@
-"""Pictures of a run: nothing is cut off, what is marked is the number, the wall is below, heights are to the scale that
-is said."""
+"""Pictures of a run: nothing is cut off, the number is marked, the wall is below, heights are to the scale stated."""
 
 import re
 
@@ -46,8 +45,7 @@ def test_nothing_is_cut_off_and_the_largest_values_are_marked_with_their_numbers
     box, (left, right), (low, high) = shapes.get_window_extent(), shapes.get_xlim(), shapes.get_ylim()
     drawn = box.height / (high - low) / (box.width / (right - left))
     assert drawn == pytest.approx(said, rel=0.02)
-    beams = [line for line in shapes.lines if len(line.get_xdata()) > 2]
-    first = beams[0].get_ydata()
+    first = next(line for line in shapes.lines if len(line.get_xdata()) > 2).get_ydata()
     assert np.argmin(first) == pytest.approx(first.size // 2, abs=1)  # its apex is nearest to the wall, which is below
 
 

@@ -1,5 +1,4 @@
-"""A force at a point, as somebody would add one: a field, its place, and their names in ``MODELLED``. The rest follows
-(docs/guide/add-load.md)."""
+"""A force at a point, as docs/guide/add-load.md adds one: a field, its place, and their names in ``MODELLED``."""
 
 import sys
 from dataclasses import dataclass

@@ -43,9 +43,8 @@ def agrees(row: dict[str, Any], name: str) -> bool:
     [(0.5, 0.0, {"acceleration": 20.0}), (2.0, 1e-3, {"acceleration": 5.0, "curvature_rate": 1.0})],
 )
 def test_theory_and_simulation_agree_before_reflections(kappa: float, damping: float, loads: dict[str, float]) -> None:
-    impact = Impact.whole_beam(kappa, relative_damping=damping).replace(**loads)
     told: list[float] = []
-    case = replace(case_of(impact), tables=HALF)
+    case = replace(case_of(Impact.whole_beam(kappa, relative_damping=damping).replace(**loads)), tables=HALF)
     found = predict_case(case, [1e-5, 2e-3, 4e-3], whole=False, progress=told.append).to_dict()
     first, early, late = found["times"]
     assert first["valid"] and agrees(first, "impulse")
@@ -91,8 +90,7 @@ def test_a_beam_of_no_damping_keeps_waves_that_grid_viscosity_absorbs_and_its_ba
 
 def test_a_rod_under_its_weight_leaves_with_what_is_known_of_it(tmp_path: Path) -> None:
     """0.6324 of its velocity, 0.6298 without shear."""
-    case = load_case(rod(tmp_path, element=0.02), ["impact.gravity=9.81"])
-    document = predict_case(case, [1e-4, 1e-3]).to_dict()
+    document = predict_case(load_case(rod(tmp_path, element=0.02), ["impact.gravity=9.81"]), [1e-4, 1e-3]).to_dict()
     assert json.loads(json.dumps(document, allow_nan=False)) == document
     restitution, largest = (document["whole_impact"][name] for name in ("restitution", "peak_stress"))
     assert restitution["value"] == pytest.approx(0.6324, abs=5e-4) and restitution["error"] < 1e-2
@@ -166,8 +164,7 @@ def test_a_gate_that_touches_all_at_once_mistaken_units_and_a_hole_that_bends_on
     def said(**change: float) -> str:
         force, falls = ({name: change.pop(name, 0.0)} for name in ("axial_force", "gravity"))
         section = {"kind": "pipe", "outer_diameter": 0.1, **steel, **change}
-        tables = {"beam": beam["beam"] | force, "impact": beam["impact"] | falls, "section": section}
-        case = case_from_tables(tables)
+        case = case_from_tables({"beam": beam["beam"] | force, "impact": beam["impact"] | falls, "section": section})
         return " ".join(doubts(case.impact, case.section))
 
     assert said() == "" and "are the sizes of the section in m?" in said(outer_diameter=1.0)

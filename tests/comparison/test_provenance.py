@@ -75,8 +75,7 @@ def test_numbers_are_stale_once_code_or_settings_change_and_not_for_words(tmp_pa
     stored.confirm(module, ["room"])
     assert stored.read(module)["packages"] == ["room"] and not stored.is_stale(module)
     (room / "another.py").unlink()
-    document = stored.read(file)
-    file.write_text(json.dumps(document | {"settings": {"mesh": 4}}))
+    file.write_text(json.dumps(stored.read(file) | {"settings": {"mesh": 4}}))
     assert stored.is_stale(file)
 
 

@@ -1,5 +1,4 @@
-"""A run in other units is the same run, in every number of its record and of what is read from it, on every path; and
-the same run again is the same, bit for bit."""
+"""A run in other units is the same in every number of its record and of what is read from it; again, bit for bit."""
 
 import random
 from functools import cache

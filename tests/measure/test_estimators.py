@@ -123,8 +123,7 @@ def test_a_companion_that_says_the_same_leaves_what_one_run_tells():
 
 
 def test_a_run_that_drifts_within_its_window_has_a_bar_for_it():
-    """A hump of the impulse in the middle of the last decade, which a fit over all of it smooths; a step near its end,
-    which half of the decade tells best."""
+    """A hump of the impulse that a fit over the last decade smooths; a step near its end, which half of it tells."""
     smooth = moments(synthetic(0.3))
     hump = 1.0 + 0.05 * np.exp(-(np.log(smooth.tau / 0.018) ** 2) / 0.2)
     steady, drifting = (
@@ -149,8 +148,7 @@ def test_first_order_is_recovered_with_and_without_uniform_reaction(first):
     exact = contact_parameters(0.5, *first)
     base = moments(synthetic(0.5))
     leading = leading_order(base)
-    runs = [(e, moments(synthetic(0.5, first, e), uniform=True)) for e in (0.05, 0.1)]
-    found = first_order(runs, base, leading)
+    found = first_order([(e, moments(synthetic(0.5, first, e), uniform=True)) for e in (0.05, 0.1)], base, leading)
     assert found.r1.value == pytest.approx(exact.r1, abs=0.01 * max(abs(exact.r1), 1.0))
     assert found.lambda1.value == pytest.approx(exact.lambda1, abs=0.02 * max(abs(exact.lambda1), 1.0))
     assert found.uniform_reaction == pytest.approx(max(first[0] + first[1], 0.0), abs=0.02)
@@ -162,8 +160,7 @@ def test_first_order_is_recovered_with_and_without_uniform_reaction(first):
 
 
 def test_noise_of_a_run_counts_in_proportion_to_its_epsilon():
-    """The same error of either run is the same share of what they measure together, and r₁ is
-    off by 0.96 at most (11.66 for 10.69, of the smaller ε)."""
+    """One error is the same share of what two runs measure, whose ever it is: r₁ is 11.66 for 10.69 at most."""
     base = moments(synthetic(0.5))
     spreads = []
     for disturbed in (0.05, 0.1):
@@ -260,8 +257,7 @@ def test_one_run_saved_at_other_times_and_further_is_the_same_run():
 @pytest.mark.parametrize(("found", "front"), [(1e-18, 0.0), (9e-6, 0.0), (2e-5, 2e-5)])
 def test_a_front_within_its_error_bar_is_none(found, front):
     """Round-off of a contact in one point must not set the size of the loads, nor λ₁."""
-    leading = LeadingEstimate(Number(found, 1e-5), Number(1.0, 1e-4), lift=0.0, window=(0.01, 0.1))
-    assert leading.front == front
+    assert LeadingEstimate(Number(found, 1e-5), Number(1.0, 1e-4), lift=0.0, window=(0.01, 0.1)).front == front
 
 
 def test_a_whole_beam_has_the_moments_of_its_half_the_uniform_reaction_too():

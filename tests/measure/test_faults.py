@@ -66,15 +66,13 @@ FAULTS = {
 def hermite_fe(package: Any) -> ImpactHistory:
     """A whole beam, held for the first fifth of the run, so that some constraints pull."""
     contact = import_module("hermite_fe.contacts").NodeContact(hold_until=0.02)
-    method = package.HermiteFE(mesh=MESH, contact=contact).for_whole_beam(WHOLE)
-    return method.simulate(WHOLE, end_time=END, save=60)
+    return package.HermiteFE(mesh=MESH, contact=contact).for_whole_beam(WHOLE).simulate(WHOLE, end_time=END, save=60)
 
 
 def exudyn_models(package: Any) -> ImpactHistory:
     """The same."""
     contact = import_module("exudyn_models.contacts").Penalty(hold=8)
-    method = package.ExudynModel(mesh=MESH, contact=contact).for_whole_beam(WHOLE)
-    return method.simulate(WHOLE, end_time=END, save=60)
+    return package.ExudynModel(mesh=MESH, contact=contact).for_whole_beam(WHOLE).simulate(WHOLE, end_time=END, save=60)
 
 
 def self_similar_fe(package: Any) -> ImpactHistory:

@@ -75,8 +75,7 @@ def test_restitution_of_a_damped_beam_is_one_number_for_all_schemes(integrator, 
 )
 def test_the_restitution_is_of_the_velocity_with_which_the_centre_of_mass_arrives(change) -> None:
     """Which is not V₀: the middle of a taut gate is faster, a load brakes a beam on its way to a wall, a bow opens."""
-    impact = Impact(1.0, 1.0, 2.0, 0.5, 1.0).replace(**change)
-    history = COARSE.simulate_to_separation(impact, save=1000)
+    history = COARSE.simulate_to_separation(Impact(1.0, 1.0, 2.0, 0.5, 1.0).replace(**change), save=1000)
     found, (first, *_) = whole_impact(history), hits(history)
     at = np.searchsorted(history.time, [first.begin, first.end])
     x = history.positions(0)
@@ -240,8 +239,7 @@ def test_a_beam_returns_where_it_is_nearest_to_the_wall_and_as_slowly_as_it_has_
 
 
 def test_the_largest_push_begins_when_the_wall_begins_to_push_within_its_window() -> None:
-    """A slap between two saved instants; a steady force, which pushes for a hundredth of T*, or a saved interval longer
-    if it is not known to be steady."""
+    """A slap between two saved instants; a steady force for a hundredth of T*, or for a saved interval longer."""
     time = np.linspace(0.0, 0.4, 401)
     found = whole_impact(recorded(time, np.outer(time > 0.2995, np.eye(5)[0])))
     assert found.push == pytest.approx(2.0) and found.push_time == pytest.approx(0.299)
@@ -260,6 +258,5 @@ def test_the_largest_push_begins_when_the_wall_begins_to_push_within_its_window(
 def test_the_wall_must_rest_for_two_thousandths_of_the_unit_of_time_to_have_been_left(apart, separations) -> None:
     time = np.linspace(0.0, 3.0, 6001)
     impulse = np.minimum(time, 0.5) + np.clip(time - 0.5 - apart, 0.0, 0.5)
-    away = np.maximum(time - 1.0, 0.0)[:, None]
-    run = recorded(time, np.outer(impulse, np.eye(5)[0]), gap=away, velocity=-1.0)
+    run = recorded(time, np.outer(impulse, np.eye(5)[0]), gap=np.maximum(time - 1.0, 0.0)[:, None], velocity=-1.0)
     assert whole_impact(run).separations == separations

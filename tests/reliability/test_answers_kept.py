@@ -47,9 +47,8 @@ def test_what_is_no_method_is_refused_by_name_and_ends_no_other_command(load, mo
 def test_an_impossible_row_costs_itself():
     (row,) = match([MatchQuestion(HermiteFE(), 1e300)])
     assert "must not exceed" in row.reason and not row.refused and row.r0.value is None
-    leading = SimpleNamespace(front=0.0)
     with pytest.raises(ValueError, match="first_order"):
-        first_order_epsilon(leading, (1e-100, 0.0, 0.0, 0.0), PERTURBATION, 0.1)
+        first_order_epsilon(SimpleNamespace(front=0.0), (1e-100, 0.0, 0.0, 0.0), PERTURBATION, 0.1)
 
 
 def test_a_full_disk_under_out_costs_the_files_and_no_answer(monkeypatch):
