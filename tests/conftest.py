@@ -6,18 +6,13 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, settings
 
-settings.register_profile(
-    "tests",
-    derandomize="FUZZ" not in os.environ,
-    deadline=None,
-    database=None,
-    max_examples=20,
-    suppress_health_check=list(HealthCheck),
-)
+UNHURRIED: dict[str, Any] = {"deadline": None, "database": None, "suppress_health_check": list(HealthCheck)}
+settings.register_profile("tests", derandomize="FUZZ" not in os.environ, max_examples=20, **UNHURRIED)
 settings.load_profile("tests")
 pytest_plugins = ["chromium"]  # its fixture
 if "PYTEST_XDIST_WORKER" not in os.environ:  # workers inherit it

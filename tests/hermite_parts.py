@@ -9,24 +9,18 @@ import numpy as np
 from fences import blocks
 from here import ROOT
 
-from hermite_fe.integrators import (
-    GeneralizedAlphaPenalty,
-    Integrator,
-    MoreauJean,
-    NonsmoothGeneralizedAlpha,
-    SignoriniPosition,
-)
+from hermite_fe.integrators import INTEGRATORS, Integrator
 from hermite_fe.integrators.nonsmooth_generalized_alpha import LEVELS
 from hermite_fe.system import ContactRows, System
 
 GRAVITY, DROP = 9.81, 0.5  # thesis Fig. 3.6
 Make = Callable[..., Integrator]
-WITH_IMPACT_LAW: dict[str, Make] = {"moreau_jean": partial(MoreauJean, theta=0.5)}
-WITH_IMPACT_LAW |= {level: partial(NonsmoothGeneralizedAlpha, levels=level) for level in LEVELS}
+WITH_IMPACT_LAW: dict[str, Make] = {"moreau_jean": partial(INTEGRATORS["moreau_jean"], theta=0.5)}
+WITH_IMPACT_LAW |= {level: partial(INTEGRATORS["nonsmooth_generalized_alpha"], levels=level) for level in LEVELS}
 ALL: dict[str, Make] = WITH_IMPACT_LAW | {
-    "moreau_jean_implicit": MoreauJean,
-    "signorini_position": SignoriniPosition,
-    "penalty": partial(GeneralizedAlphaPenalty, stiffness=1e5, damping=1e3),
+    "moreau_jean_implicit": INTEGRATORS["moreau_jean"],
+    "signorini_position": INTEGRATORS["signorini_position"],
+    "penalty": partial(INTEGRATORS["generalized_alpha_penalty"], stiffness=1e5, damping=1e3),
 }
 FIRST_ORDER = ("moreau_jean_implicit", "signorini_position")
 
@@ -37,13 +31,8 @@ def ball() -> System:
 
 def chain(gap: float, load: list[list[float]]) -> System:
     """Two damped, forced masses and a stop."""
-    return System(
-        mass=[[1.0, 2.0]],
-        stiffness=[[3.0, 2.0], [-1.0, 0.0]],
-        dampings=(("viscous", [[0.1, 0.2]]),),
-        load=load,
-        contacts=ContactRows([[0]], [[1.0]], [gap]),
-    )
+    stiffness, damped, stop = [[3.0, 2.0], [-1.0, 0.0]], [[0.1, 0.2]], ContactRows([[0]], [[1.0]], [gap])
+    return System([[1.0, 2.0]], stiffness, dampings=(("viscous", damped),), load=load, contacts=stop)
 
 
 def defined_in(page: str) -> dict[str, Any]:

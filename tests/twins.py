@@ -20,14 +20,7 @@ from exudyn_models.geometry import TrueGeometry
 from exudyn_models.integrators import RK44, GeneralizedAlpha, Newmark
 from hermite_fe import HermiteFE
 from hermite_fe.contacts import AlternateContact
-from hermite_fe.integrators import (
-    GeneralizedAlphaPenalty,
-    MasslessBoundary,
-    Midpoint,
-    MoreauJean,
-    NonsmoothGeneralizedAlpha,
-    SignoriniPosition,
-)
+from hermite_fe.integrators import INTEGRATORS
 from self_similar_fe import SelfSimilarFE
 from self_similar_fe.mesh import ExpandingMesh
 
@@ -52,7 +45,7 @@ LOSSY = BEAM.replace(damping=0.0, hysteretic_loss=0.1, loss_frequency=5.0)
 
 
 def hermite(scheme, m, s, **parts):
-    return HermiteFE(mesh=UniformMesh(0.06 * m), integrator=scheme(4e-3 * s, 0.0), **parts)
+    return HermiteFE(mesh=UniformMesh(0.06 * m), integrator=INTEGRATORS[scheme](4e-3 * s, 0.0), **parts)
 
 
 def exudyn(m, s, **parts):
@@ -64,15 +57,15 @@ def expanding(m, s):
 
 
 RUNS = {
-    "Moreau and Jean": (BEAM, partial(hermite, MoreauJean)),
-    "Signorini, loads of the bow": (LOADED, partial(hermite, SignoriniPosition)),
-    "nonsmooth generalised-α, sheared": (SHEARED, partial(hermite, NonsmoothGeneralizedAlpha)),
-    "penalty": (BEAM, partial(hermite, GeneralizedAlphaPenalty)),
-    "massless boundary": (BEAM.replace(damping=0.0), partial(hermite, MasslessBoundary, contact=AlternateContact())),
-    "between two walls": (BETWEEN, partial(hermite, MoreauJean, full_beam=True)),
-    "two soft walls": (BETWEEN.replace(**SOFT), partial(hermite, Midpoint, full_beam=True)),
-    "held": (HELD, partial(hermite, MoreauJean, full_beam=True)),
-    "hysteretic": (LOSSY, partial(hermite, MoreauJean)),
+    "Moreau and Jean": (BEAM, partial(hermite, "moreau_jean")),
+    "Signorini, loads of the bow": (LOADED, partial(hermite, "signorini_position")),
+    "nonsmooth generalised-α, sheared": (SHEARED, partial(hermite, "nonsmooth_generalized_alpha")),
+    "penalty": (BEAM, partial(hermite, "generalized_alpha_penalty")),
+    "massless boundary": (BEAM.replace(damping=0.0), partial(hermite, "massless_boundary", contact=AlternateContact())),
+    "between two walls": (BETWEEN, partial(hermite, "moreau_jean", full_beam=True)),
+    "two soft walls": (BETWEEN.replace(**SOFT), partial(hermite, "midpoint", full_beam=True)),
+    "held": (HELD, partial(hermite, "moreau_jean", full_beam=True)),
+    "hysteretic": (LOSSY, partial(hermite, "moreau_jean")),
     "expanding": (LOADED.replace(damping=0.0, curvature=0.7), expanding),
     "expanding, bare": (BEAM.replace(damping=0.0, curvature=0.7, acceleration=0.0), expanding),
     "Exudyn": (LOADED, exudyn),

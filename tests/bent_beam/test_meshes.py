@@ -7,16 +7,13 @@ from hypothesis import strategies as st
 
 from bent_beam.meshes import GradedMesh, NodesMesh, ScaleFreeMesh, SquareMesh, UniformMesh, mirrored, snapped
 
+MESHES = st.builds(UniformMesh, st.floats(0.02, 50))
+MESHES |= st.builds(GradedMesh, st.floats(0.02, 50), st.floats(1.0, 2.0), st.none() | st.floats(0.1, 60))
+MESHES |= st.builds(SquareMesh, st.floats(0.3, 20), st.floats(1, 60), st.floats(1.0, 2.0))
+MESHES |= st.builds(ScaleFreeMesh, st.floats(0.02, 10), st.floats(1.005, 2.0))
 
-@given(
-    st.one_of(
-        st.builds(UniformMesh, st.floats(0.02, 50)),
-        st.builds(GradedMesh, st.floats(0.02, 50), st.floats(1.0, 2.0), st.none() | st.floats(0.1, 60)),
-        st.builds(SquareMesh, st.floats(0.3, 20), st.floats(1, 60), st.floats(1.0, 2.0)),
-        st.builds(ScaleFreeMesh, st.floats(0.02, 10), st.floats(1.005, 2.0)),
-    ),
-    st.floats(1.0, 40.0),
-)
+
+@given(MESHES, st.floats(1.0, 40.0))
 def test_a_mesh_covers_the_half_beam_in_order(mesh, half_length):
     nodes = mesh.nodes(half_length)
     assert nodes[0] == 0.0

@@ -45,19 +45,12 @@ def test_on_one_mesh_with_one_contact_law_both_codes_give_the_same_gaps_node_by_
     impact, mesh, step, stiffness = Impact.dimensionless(0.5, length=10.0), UniformMesh(0.05), 2e-4, 1e4
     springs = {"stiffness": stiffness, "damping": damping}  # per unit length of beam
     scaled = {"relative_stiffness": stiffness * 0.05**4, "relative_damping": damping * 0.05**2}
-    hermite = HermiteFE(
-        mesh=mesh,
-        integrator=GeneralizedAlphaPenalty(step, spectral_radius=0.5, contact_rounds=20, **springs),
-        far_field=GridViscosity(viscosity=0.0),
-    )
-    exudyn = ExudynModel(
-        mesh=mesh,
-        element=ANCFCable(viscosity=0.0),
-        integrator=GeneralizedAlpha(spectral_radius=0.5, time_step=step),
-        contact=Penalty(hold_start=0.0, **scaled),
-        geometry=LinearLimit(amplitude=1e-5),
-        solver=NewtonSolver(contact_iterations=20, contact_tolerance=1e-10, initial_accelerations=False),
-    )
+    penalty = GeneralizedAlphaPenalty(step, spectral_radius=0.5, contact_rounds=20, **springs)
+    hermite = HermiteFE(mesh=mesh, integrator=penalty, far_field=GridViscosity(viscosity=0.0))
+    alpha = GeneralizedAlpha(spectral_radius=0.5, time_step=step)
+    solver = NewtonSolver(contact_iterations=20, contact_tolerance=1e-10, initial_accelerations=False)
+    linear = {"geometry": LinearLimit(amplitude=1e-5), "element": ANCFCable(viscosity=0.0), "solver": solver}
+    exudyn = ExudynModel(mesh=mesh, integrator=alpha, contact=Penalty(hold_start=0.0, **scaled), **linear)
     ours, theirs = (m.simulate(impact, end_time=0.1, save=np.linspace(0.0, 0.1, 26)) for m in (hermite, exudyn))
     assert np.allclose(ours.time, theirs.time, rtol=1e-9)
     difference = np.abs(ours.array("gap") - theirs.array("gap"))[1:] / ours.time[1:, None]  # V₀ = 1

@@ -81,13 +81,8 @@ def where(request):
 )
 def test_answers_come_in_the_order_of_the_questions_and_a_worker_that_dies_costs_its_call_and_no_other(where, deaths):
     numbers, seen = [*(float(n) for n in range(12, 0, -1)), *[0.0] * deaths, 16.0], []
-    found = run_all(
-        root,
-        [(n,) for n in numbers],
-        on_death=lambda i, why: (i, why),
-        progress=lambda *done: seen.append(done),
-        **where,
-    )
+    asked = [(n,) for n in numbers]
+    found = run_all(root, asked, on_death=lambda *death: death, progress=lambda *done: seen.append(done), **where)
     assert found == [n**0.5 if n else (12, "the worker died: out of memory?") for n in numbers]
     assert seen == [(n, len(numbers)) for n in range(1, len(numbers) + 1)]
 

@@ -64,25 +64,19 @@ def test_a_sound_run_has_nothing_to_warn_of(tmp_path):
     assert not [said for said in simulate(tmp_path, "exudyn", BENT, 10.0)["warnings"] if "linear range" in said]
 
 
-@pytest.mark.parametrize(
-    "steps",
-    [
-        500,
-        pytest.param(20_000, marks=pytest.mark.verify),
-        pytest.param(200_000, marks=pytest.mark.skipif(not FUZZ, reason="a run of minutes: FUZZ=1")),
-    ],
-)
+minutes = pytest.mark.skipif(not FUZZ, reason="a run of minutes: FUZZ=1")
+STEPS = [500, pytest.param(20_000, marks=pytest.mark.verify), pytest.param(200_000, marks=minutes)]
+
+
+@pytest.mark.parametrize("steps", STEPS)
 def test_the_budget_of_a_long_run_closes_and_its_memory_stays_flat(steps):
     """Two thousand nodes."""
+    impact = Impact.dimensionless(0.5, length=20.0)
 
     def run(count):
-        return hermite_fe.simulate(
-            Impact.dimensionless(0.5, length=20.0),
-            end_time=0.1 * count / steps,
-            mesh=UniformMesh(10.0 / 1999),
-            integrator=MoreauJean(time_step=0.1 / steps),
-            save=20,
-        )
+        mesh, scheme = UniformMesh(10.0 / 1999), MoreauJean(time_step=0.1 / steps)
+        end = 0.1 * count / steps
+        return hermite_fe.simulate(impact, end_time=end, mesh=mesh, integrator=scheme, save=20)
 
     assert run(max(steps // 100, 10)).dataset is not None  # kernels are loaded then, and xarray is imported
     before = peak()  # MB
