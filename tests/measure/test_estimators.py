@@ -62,10 +62,11 @@ def pressed(uniform=True, first=(1.0, 0.5, 0.0)):
 
 
 @pytest.mark.parametrize("kappa", [0.05, 0.3, 0.8])
-def test_leading_order_is_recovered(kappa):
-    exact = contact_parameters(kappa)
-    reduced = moments(synthetic(kappa))
-    found = leading_order(reduced)
+def test_leading_order_is_recovered_and_is_the_same_whenever_the_run_ends(kappa):
+    exact, reduced = contact_parameters(kappa), moments(synthetic(kappa))
+    scaled = {"tau": 1e-6 * reduced.tau, "impulse": 1e-3 * reduced.impulse, "moment": 1e-6 * reduced.moment}
+    found, early = leading_order(reduced), leading_order(dataclasses.replace(reduced, **scaled))
+    assert (early.r0.known, early.lambda0.known) == pytest.approx((found.r0.known, found.lambda0.known), rel=1e-9)
     assert found.r0.value == pytest.approx(exact.r0, rel=2e-3)
     assert found.lambda0.value == pytest.approx(exact.lambda0, rel=4e-3)
     assert np.median((reduced.front / np.sqrt(reduced.tau))[20:]) == pytest.approx(exact.lambda0, rel=2e-3)
@@ -126,13 +127,6 @@ def test_a_run_that_drifts_within_its_window_has_a_bar_for_it():
     late = dataclasses.replace(smooth, impulse=np.where(smooth.tau > 0.07, 1.02, 1.0) * smooth.impulse)
     found, half = (leading_order(late, window=window).r0 for window in (10.0, 10.0**0.5))
     assert found.parts["drift"] == pytest.approx(4.0 * abs(half.value - steady.value), rel=0.02)
-
-
-def test_leading_order_is_the_same_whenever_the_run_ends():
-    run = moments(synthetic(0.5))
-    early = dataclasses.replace(run, tau=1e-6 * run.tau, impulse=1e-3 * run.impulse, moment=1e-6 * run.moment)
-    one, other = leading_order(run), leading_order(early)
-    assert (one.r0.known, one.lambda0.known) == pytest.approx((other.r0.known, other.lambda0.known), rel=1e-9)
 
 
 @pytest.mark.parametrize("first", [(4.0, 0.0, 0.0), (1.0, 1.0, 1.0), (-1.0, -1.0, 0.0), (0.0, 0.0, 1.0)])
