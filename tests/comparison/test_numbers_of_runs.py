@@ -217,11 +217,6 @@ def test_what_is_missing_of_the_energy_without_being_booked_counts_as_lost() -> 
     assert energy_residual(ENERGY | {"defect": -0.01, "work_of_loads": -1.0}) == pytest.approx(0.005)
 
 
-def test_what_is_out_of_balance_is_among_the_warnings_of_runs() -> None:
-    balance = whole_reading(pushed_until(0.5))["balance"] | {"pull": 0.5}
-    assert any("the wall pulls" in line for line in runs({"energy": ENERGY, "balance": balance}).warnings)
-
-
 @dataclasses.dataclass
 class Falling:
     """A beam that is pushed from 0 to 0.5 T* and, by its weight, from 5 T* on: once more, or for good."""
