@@ -38,14 +38,6 @@ def whole_runs_in(folder):
     return {file: file.stat().st_mtime_ns for file in files}
 
 
-def kill_when(happened, process):
-    """Kill -9 as soon as ``happened()``, however fast the machine: its workers too, as a power cut would."""
-    until(lambda: happened() or process.poll() is not None, 590.0, 0.005)
-    if process.poll() is None:
-        os.killpg(process.pid, signal.SIGKILL)
-    process.communicate()
-
-
 SWEEP = ["sweep", "rod.toml", "--vary", "impact.velocity=0.5:2:8", "--vary", "beam.damping_ratio=0.01:0.05:5", "--json"]
 KILLED = {"match": match_on("hermite", 0.5, 0.3, 2.0), "sweep": [*SWEEP, "--jobs", 2]}
 
@@ -65,7 +57,11 @@ def test_a_killed_command_starts_again_and_ends_with_the_same_rows(name, tmp_pat
     for folder in killed:
         jobs = ["--jobs", numbers.choice("12")] if FUZZ and name == "match" else []
         for count in sorted(numbers.sample(range(1, runs), 2)):
-            kill_when(lambda: len(kept(folder)) >= count, started(*words, *jobs, cwd=folder))  # noqa: B023
+            process = started(*words, *jobs, cwd=folder)
+            until(lambda: len(kept(folder)) >= count or process.poll() is not None, 590.0, 0.005)  # noqa: B023
+            if process.poll() is None:  # its workers too, as a power cut would
+                os.killpg(process.pid, signal.SIGKILL)
+            process.communicate()
         before = whole_runs_in(folder)
         assert rows(words, folder) == expected
         after = whole_runs_in(folder)
