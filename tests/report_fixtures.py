@@ -62,10 +62,8 @@ def pipe() -> dict[str, Any] | None:
     return pipe_prediction(coarse, store=KEPT)
 
 
-METHODS = (
-    SelfSimilarFE(mesh=ExpandingMesh(decades=3.0)),
-    HermiteFE(mesh=ScaleFreeMesh(element_length=4e-3, growth=1.02)),
-)
+ROUGH = ScaleFreeMesh(element_length=4e-3, growth=1.02)
+METHODS = (SelfSimilarFE(mesh=ExpandingMesh(decades=3.0)), HermiteFE(mesh=ROUGH))
 
 
 @cache

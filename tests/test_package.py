@@ -14,9 +14,7 @@ from called import CASE, refused
 from here import ROOT
 
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
-PACKAGES = sorted(
-    p.name for p in ROOT.iterdir() if (p / "__init__.py").is_file() and p.name not in ("benchmarks", "tests")
-)
+PACKAGES = sorted({p.parent.name for p in ROOT.glob("*/__init__.py")} - {"benchmarks", "tests"})
 
 
 def test_set_up_with_an_old_python_names_the_one_it_needs_and_leaves_nothing(tmp_path):
@@ -113,10 +111,8 @@ for name, words in {COMMANDS!r}.items():
     print("==", name, flush=True)
     assert run(shlex.split(words)) == 0, name
 """
-    environment = {k: v for k, v in os.environ.items() if k != "PYTHONPATH"} | {"BENTBEAM_STORE": str(tmp_path / "s")}
-    done = subprocess.run(
-        [sys.executable, "-P", "-c", main], cwd=tmp_path, capture_output=True, text=True, env=environment
-    )
+    env = {k: v for k, v in os.environ.items() if k != "PYTHONPATH"} | {"BENTBEAM_STORE": str(tmp_path / "s")}
+    done = subprocess.run([sys.executable, "-P", "-c", main], cwd=tmp_path, capture_output=True, text=True, env=env)
     assert done.returncode == 0, done.stdout[-500:] + done.stderr[-2000:]
     answers = {name.strip(): rest for name, _, rest in (p.partition("\n") for p in done.stdout.split("== ")[1:])}
     assert json.loads(answers["theory"])["lambda0"] == pytest.approx(1.019, abs=1e-3)

@@ -45,9 +45,8 @@ def test_a_beam_that_has_left_does_not_return_and_one_that_swings_as_wide_as_it_
 
 
 def test_tension_brings_a_hinged_beam_back_and_a_load_off_the_wall_brings_none_back() -> None:
-    pendulum = Impact.whole_beam(1.0).replace(
-        curvature=0.0, left_end="hinged", wall_from=0.5, wall_to=0.5, wall_stiffness=9.0
-    )
+    stop = {"wall_from": 0.5, "wall_to": 0.5, "wall_stiffness": 9.0}
+    pendulum = Impact.whole_beam(1.0).replace(curvature=0.0, left_end="hinged", **stop)
     back = (pendulum.replace(axial_force=1.0), pendulum.replace(acceleration=1.0))
     impacts = (*back, pendulum, Impact.whole_beam(0.5).replace(acceleration=-0.1))
     stands: list[Any] = [SimpleNamespace(impact=impact) for impact in impacts]

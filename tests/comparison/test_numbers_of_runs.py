@@ -248,9 +248,7 @@ def test_hits_are_followed_until_so_many_are_over_or_the_beam_does_not_come_back
 
 
 def test_a_straight_beam_that_its_wall_presses_evenly_has_no_moment_of_round_off() -> None:
-    beam = Impact(
-        curvature=0.0, bending_stiffness=1e8, mass_per_length=1e8, velocity=1.0, length=2.0, wall_stiffness=9e8
-    )
+    beam = Impact(1e8, 1e8, 2.0, 0.0, 1.0, wall_stiffness=9e8)
     run = HermiteFE(mesh=UniformMesh(0.2)).simulate(beam, end_time=0.2, save=20)
     assert 0.0 < peak_moment(run).moment < 1e-4 and instants_reading((0.1, 0.2), False, run)["peak_moment"] == 0.0
 

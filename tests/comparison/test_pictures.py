@@ -74,6 +74,4 @@ def test_a_picture_has_the_same_bytes_when_it_is_drawn_again(whole, tmp_path, mo
         if whole:
             draw_history(pushed_until(0.5), folder, "run", ["svg"])
     files = sorted((tmp_path / "a").iterdir())
-    assert len(files) == 3 + whole and all(
-        file.read_bytes() == (tmp_path / "b" / file.name).read_bytes() for file in files
-    )
+    assert len(files) == 3 + whole and all(f.read_bytes() == (tmp_path / "b" / f.name).read_bytes() for f in files)

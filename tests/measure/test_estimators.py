@@ -119,9 +119,8 @@ def test_a_run_that_drifts_within_its_window_has_a_bar_for_it():
     """A hump of the impulse that a fit over the last decade smooths; a step near its end, which half of it tells."""
     smooth = moments(synthetic(0.3))
     hump = 1.0 + 0.05 * np.exp(-(np.log(smooth.tau / 0.018) ** 2) / 0.2)
-    steady, drifting = (
-        leading_order(dataclasses.replace(smooth, impulse=i)).r0 for i in (smooth.impulse, smooth.impulse * hump)
-    )
+    uneven = dataclasses.replace(smooth, impulse=smooth.impulse * hump)
+    steady, drifting = (leading_order(one).r0 for one in (smooth, uneven))
     assert abs(drifting.value - contact_parameters(0.3).r0) <= drifting.bar and drifting.parts["drift"] > 0.1
     assert drifting.parts["drift"] > 20.0 * steady.parts["drift"]
     late = dataclasses.replace(smooth, impulse=np.where(smooth.tau > 0.07, 1.02, 1.0) * smooth.impulse)
@@ -151,10 +150,8 @@ def test_noise_of_a_run_counts_in_proportion_to_its_epsilon():
     spreads = []
     for disturbed in (0.05, 0.1):
         runs = [(e, moments(synthetic(0.5, (4.0, 0.0, 0.0), e), uniform=True)) for e in (0.05, 0.1)]
-        runs = [
-            (e, dataclasses.replace(run, impulse=run.impulse + 0.02 * run.tau**1.5 * (e == disturbed)))
-            for e, run in runs
-        ]
+        more = {e: 0.02 * run.tau**1.5 * (e == disturbed) for e, run in runs}
+        runs = [(e, dataclasses.replace(run, impulse=run.impulse + more[e])) for e, run in runs]
         spreads.append(first_order(runs, base, leading_order(base)).r1.parts["spread"])
     assert 0.5 < spreads[0] / spreads[1] < 2.0 and 0.01 < min(spreads) and max(spreads) < 2.0 * 0.96
 
