@@ -266,11 +266,8 @@ def test_no_text_acts_on_the_terminal(name, tmp_path, capsys):
     """Control characters and writing turned round come out as their codes, in text and JSON, on either stream."""
     quoted = json.dumps(EVIL).replace("\\u009b", "\x9b")
     method = '[[method]]\npath = "hermite"\nlabel = '
-    texts = {
-        "case": f"title = {quoted}\n{CASE}",
-        "methods": f"{method}{quoted}\n",
-        "mathematics": f'{method}"$\\\\frac{{$ <b>"\n',
-    }
+    texts = {"case": f"title = {quoted}\n{CASE}", "methods": f"{method}{quoted}\n"}
+    texts["mathematics"] = f'{method}"$\\\\frac{{$ <b>"\n'
     words = {"folder": tmp_path, "evil": EVIL} | {kind: tmp_path / f"{kind}.toml" for kind in texts}
     for kind, text in texts.items():
         words[kind].write_text(text)
