@@ -185,12 +185,13 @@ def _scales_of_rebound(reading: Mapping[str, Any]) -> dict[str, float]:
 
 def unseen_of_moment(runs: Runs) -> dict[str, float]:
     """Errors of the largest moment that no companion shows, by cause: what it may have been in first instants that no
-    mesh resolves; what single nodes add to it where the beam does not converge, or on a zone with hardly any damping
-    once waves have run along the beam."""
+    mesh resolves; what a push spread over less than an element takes from it; what single nodes add to it where the
+    beam does not converge, or on a zone with hardly any damping once waves have run along the beam."""
     reading, impact = runs.run.reading, runs.question.impact
     hardly = _is_light(runs.question) and impact.kappa_over_nu < 1.0 and impact.wall_stiffness is None
     return {
         "first_instants": FACTOR * max(reading["moment_left_out"] - reading["peak_moment"], 0.0),
+        "spread": reading["moment_spread"],
         "chatter": CHATTER * reading["peak_moment"] if hardly or not converges(impact) else 0.0,
     }
 

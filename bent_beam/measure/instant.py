@@ -27,11 +27,11 @@ class Instant:
     half_contact_length : of the rim of what pushes, m; none where nothing does (of first instants 0). reaction :
     mean force of the wall over a tenth of the time before and after, N. impulse : N s. peak_moment,
     peak_moment_place, peak_moment_time : the largest moment of all steps so far, N m, m, s; moment_left_out : what
-    it may have been at first (:func:`bent_beam.measure.reduction.moment_left_out`). peak_force, peak_penetration,
-    peak_pressure : of a wall that gives way, so far, the force with its time, s, mean |x|, m, wall ("front",
-    "opposite") and how sharp it is, N (:class:`bent_beam.measure.reduction.WallPeaks`); the pressure not of a stop.
-    impulse_around : at ``SHARES_AROUND`` of the time, N s. element : length of the one at the rim, m, or how far it
-    jumps. lift : the largest inside the zone in the last decade of time, over V₀t.
+    it may have been at first, moment_spread : how much smaller it may be (:mod:`bent_beam.measure.reduction`).
+    peak_force, peak_penetration, peak_pressure : of a wall that gives way, so far, the force with its time, s, mean
+    |x|, m, wall ("front", "opposite") and how sharp it is, N (:class:`bent_beam.measure.reduction.WallPeaks`); the
+    pressure not of a stop. impulse_around : at ``SHARES_AROUND`` of the time, N s. element : length of the one at the
+    rim, m, or how far it jumps. lift : the largest inside the zone in the last decade of time, over V₀t.
     """
 
     half_contact_length: float | None
@@ -41,6 +41,7 @@ class Instant:
     peak_moment_place: float
     peak_moment_time: float
     moment_left_out: float
+    moment_spread: float
     peak_force: float | None
     peak_force_time: float | None
     peak_force_place: float | None
@@ -73,6 +74,7 @@ def instant(history: ImpactHistory, time: float, *, first_spread: bool = False) 
         peak_moment_place=peak.place,
         peak_moment_time=peak.time,
         moment_left_out=moment_left_out(history, time),
+        moment_spread=peak.spread,
         peak_force=None if wall is None else wall.force,
         peak_force_time=None if wall is None or wall.place is None else wall.time,
         peak_force_place=None if wall is None else wall.place,

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from bent_beam.history import Array, ImpactHistory
+from bent_beam.measure.moments import element_at
 
 CHUNK = 256  # saved instants at once
 OF_RUN, OF_BEAM = 0.02, 0.002  # see _first_resolved
@@ -23,12 +24,14 @@ class PeakMoment(NamedTuple):
     """Largest bending moment, N m (its size), its place, m, x or of a symmetric impact |x|, and its time, s: of all
     steps the middle of its saved interval, else the saved instant.
 
-    midspan : the largest at x = 0, N m."""
+    midspan : the largest at x = 0, N m. spread : how much smaller it may be, N m, as its push spreads over less than an
+    element."""
 
     moment: float
     place: float
     time: float
     midspan: float
+    spread: float = 0.0
 
 
 class WallPeaks(NamedTuple):
@@ -136,7 +139,8 @@ def peak_moment(history: ImpactHistory, until: float | None = None, since: int =
         k = first + int(np.argmax(sizes))
         place, middle = history.array("largest_moment_place")[k], history.array("largest_midspan_moment")[first:count]
         time = float(history.time[k - 1 : k + 1].mean())
-        return PeakMoment(float(sizes.max()), _side(history, float(place)), time, float(middle.max()))
+        best = PeakMoment(float(sizes.max()), _side(history, float(place)), time, float(middle.max()))
+        return best._replace(spread=_spread(history, best))
     best = PeakMoment(0.0, 0.0, float(history.time[0]), 0.0)
     midspan = 0.0
     moving = "position" in history
@@ -152,7 +156,8 @@ def peak_moment(history: ImpactHistory, until: float | None = None, since: int =
         share = -place[middle, 0] / (place[middle, 1] - place[middle, 0])  # linear in an element, as of a cubic
         there = (1.0 - share) * moments[..., middle, 0] + share * moments[..., middle, 1]
         midspan = max(midspan, float(np.abs(there).max(initial=0.0)))
-    return best._replace(place=_side(history, best.place), midspan=midspan)
+    best = best._replace(place=_side(history, best.place), midspan=midspan)
+    return best._replace(spread=_spread(history, best))
 
 
 def _side(history: ImpactHistory, place: float) -> float:
@@ -178,6 +183,25 @@ def moment_left_out(history: ImpactHistory, until: float | None = None) -> float
     count = _instants(history, until)
     left_out = history.array("largest_moment", slice(1, _first_resolved(history, count)))
     return min(float(left_out.max(initial=0.0)), impact.moment_scale)
+
+
+def _spread(history: ImpactHistory, peak: PeakMoment) -> float:
+    """`PeakMoment.spread`. Before a rigid wall a beam that shears is flat over b on either side of the point that it
+    touches, where the slope of its shear makes up for what its bending leaves of the curvature: with a push P = 2bp,
+    p/κ_sGA = (M_flat − M)/EI, and M is less by Pb/4. From half an element on, nodes show b."""
+    impact, time = history.impact, history.time
+    flat = impact.bending_stiffness * (impact.unbent_curvature - impact.wall_curvature)
+    if impact.shear_stiffness is None or impact.wall_stiffness is not None or peak.moment >= flat:
+        return 0.0
+    k = int(np.searchsorted(time, peak.time))
+    about, element = slice(max(k - 2, 0), k + 2), element_at(history, k, peak.place - impact.first_touch)
+    given = np.diff(history.array("impulse", about)[[0, -1]], axis=0)[0]
+    near = np.abs(history.contact_positions(k) - peak.place) <= element
+    copies = 2.0 / history.sides if peak.place <= element else 1.0
+    push = copies * float(given[near].sum()) / float(np.ptp(time[about]))
+    spread = 0.5 * push * impact.bending_stiffness / (impact.shear_stiffness * (flat - peak.moment))
+    begin, end = impact.wall_span
+    return max(0.25 * push * min(spread, 0.5 * element, 0.5 * (end - begin)), 0.0)
 
 
 def _first_resolved(history: ImpactHistory, count: int) -> int:

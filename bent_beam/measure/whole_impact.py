@@ -47,8 +47,8 @@ class WholeImpact:
     contacts : begin and end of each contact, separations shorter than the shortest ignored; the last ends at the last
         contact, last_push is its impulse over mV₀, a velocity over V₀. returns : when the beam is nearest to the wall
         again, within a period after the last contact, and the mean velocity since then by which it misses the wall, V₀.
-    peak_moment_place : x/ℓ, of a symmetric impact |x|/ℓ. moment_left_out : what the moment may have been at first
-        (:func:`bent_beam.measure.reduction.moment_left_out`).
+    peak_moment_place : x/ℓ, of a symmetric impact |x|/ℓ. moment_left_out : what the moment may have been at
+        first, moment_spread : how much smaller it may be (:mod:`bent_beam.measure.reduction`).
     translation, vibration, dissipated : shares of the initial energy and the work of the loads, altogether one; the
         rotation of a beam that rocks counts as vibration.
     peak_force : on the zone of a wall that gives way, over μℓV₀/T*, with its time and its mean |x|/ℓ; ``None`` of a
@@ -72,6 +72,7 @@ class WholeImpact:
     peak_moment_place: float
     peak_moment_time: float
     moment_left_out: float
+    moment_spread: float
     midspan_moment: float
     translation: float
     vibration: float
@@ -156,6 +157,7 @@ def whole_impact(history: ImpactHistory) -> WholeImpact:
         peak_moment_place=peak.place / impact.half_length,
         peak_moment_time=peak.time / unit,
         moment_left_out=moment_left_out(history) / impact.moment_scale,
+        moment_spread=peak.spread / impact.moment_scale,
         midspan_moment=peak.midspan / impact.moment_scale,
         **_largest_force(history, until),
         push=2.0 * (float(gained[k]) + rise) / (mass * speed),

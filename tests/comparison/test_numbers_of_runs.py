@@ -26,7 +26,7 @@ from hermite_fe import HermiteFE
 COARSE = HermiteFE(mesh=UniformMesh(1.0 / 25))
 LATE, EARLY = 0.1, 0.001  # T*
 TIME = {name: 1.0 for name in OF_INSTANT} | {"impulse_around": [0.9, 1.0, 1.1], "element": 0.0, "lift": 0.0}
-TIME |= {"moment_left_out": 0.0, "peak_force_sharp": 0.0}
+TIME |= {"moment_left_out": 0.0, "moment_spread": 0.0, "peak_force_sharp": 0.0}
 ENERGY = {"initial": 1.0, "work_of_loads": 0.0, "loss_algorithmic": 0.0, "loss_viscous": 0.0, "defect": 0.0}
 
 
