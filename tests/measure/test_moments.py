@@ -32,7 +32,7 @@ def test_the_moment_of_a_cubic_is_exact_and_the_peak_is_where_it_is_largest(with
     assert peak_moment(history, until=1.0).moment == pytest.approx(exact[1, -1], rel=1e-12)
     assert peak.moment == pytest.approx(exact[2, -1], rel=1e-12)
     assert peak.midspan == pytest.approx(exact[2, 0], rel=1e-12)
-    assert peak_moment(history, until=0.0) == (0.0, 0.0, 0.0, 0.0)  # there is none before the impact
+    assert peak_moment(history, until=0.0) == (0.0, 0.0, 0.0, 0.0, 0.0)  # there is none before the impact
 
 
 def test_moments_of_a_mesh_that_moves_stand_where_its_nodes_are_then():
