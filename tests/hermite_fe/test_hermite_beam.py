@@ -1,13 +1,11 @@
 """The element (thesis A.6, 3.1.5, 3.1.8), masses, and the beam as a system."""
 
-import math
-
 import numpy as np
 import pytest
 from scipy.linalg import solveh_banded
 
 from bent_beam import Impact
-from bent_beam.meshes import GradedMesh, ScaleFreeMesh, UniformMesh
+from bent_beam.meshes import GradedMesh, UniformMesh
 from hermite_fe import simulate
 from hermite_fe.banded import product
 from hermite_fe.beam import HermiteBeam, shape_functions
@@ -27,19 +25,6 @@ def test_interpolation_is_exact_for_cubics() -> None:
         assert np.allclose(shape_functions(x / 0.37, 0.37, d) @ q, cubic.deriv(d)(x))
 
 
-@pytest.mark.parametrize("mass", [ConsistentMass(), LumpedMass(), LumpedMass(rotary=1.0 / 24.0)])
-def test_rigid_motions_strain_nothing_and_carry_the_rigid_mass(mass: Mass) -> None:
-    beam = HermiteBeam(ScaleFreeMesh(0.01, 1.1).nodes(2.0), 3.0, 5.0)
-    x = beam.nodes
-    shift, turn = beam.interpolate(np.ones_like(x), 0.0 * x), beam.interpolate(x, np.ones_like(x))
-    scale = np.abs(beam.stiffness()).max()
-    for rigid in (shift, turn):
-        assert np.abs(product(beam.stiffness(), rigid)).max() < 1e-14 * scale
-    assert shift @ product(mass.matrix(beam), shift) == pytest.approx(5.0 * 2.0, rel=1e-12)
-    if isinstance(mass, ConsistentMass):
-        assert turn @ product(mass.matrix(beam), turn) == pytest.approx(5.0 * 2.0**3 / 3.0, rel=1e-12)
-
-
 def test_a_beam_follows_its_supports() -> None:
     """How it bends under a force stands in ``test_shear.py``."""
     beam = HermiteBeam(np.linspace(0.0, 5.0, 53), 9.345e3, 1.0)
@@ -48,10 +33,10 @@ def test_a_beam_follows_its_supports() -> None:
 
 
 def test_hinton_rock_and_zienkiewicz_scale_the_diagonal_of_the_consistent_matrix() -> None:
-    beam = HermiteBeam(np.array([0.0, 0.7, 1.4]), 1.0, 2.0)
+    beam = HermiteBeam(np.array([0.0, 0.7, 1.9]), 1.0, 5.0)
     ours, full = LumpedMass(rotary=1.0 / 78.0).matrix(beam), ConsistentMass().matrix(beam)
     assert ours[0] == pytest.approx(full[0] * 420.0 / 312.0, rel=1e-14)
-    assert not ours[1:].any()
+    assert not ours[1:].any() and ours[0, 0::2].sum() == pytest.approx(5.0 * 1.9, rel=1e-12)
 
 
 @pytest.mark.parametrize("mass", [ConsistentMass(), LumpedMass()])
@@ -76,16 +61,6 @@ def test_half_a_model_has_half_of_the_work_the_loads_and_the_stop_of_a_whole_bea
     assert model.copies * model.work_of_tension(bent[None]) == pytest.approx(-0.1)
     assert loads[0, -2] == pytest.approx(0.15) and model.copies * loads.sum() == pytest.approx(0.3)
     assert model.copies * model.system.springs.stiffness == 7.0
-
-
-@pytest.mark.parametrize("axial_force", [-3.0, 8.0])
-def test_the_first_mode_of_a_pinned_beam_has_its_frequency_under_tension(axial_force: float) -> None:
-    """ω² = (π/L)⁴EI/μ + (π/L)²N/μ."""
-    beam, k = HermiteBeam(np.linspace(0.0, 1.0, 21), 2.0, 3.0), math.pi / 2.0  # L = 2
-    q = beam.interpolate(np.cos(k * beam.nodes), -k * np.sin(k * beam.nodes))
-    stiffness = beam.stiffness() + axial_force * beam.geometric_stiffness()
-    found = (q @ product(stiffness, q)) / (q @ product(beam.mass(), q))
-    assert found == pytest.approx((2.0 * k**4 + axial_force * k**2) / 3.0, rel=1e-6)
 
 
 @pytest.mark.parametrize("kind", sorted({*INTEGRATORS} - {"massless_boundary"}))  # moves masses, has no damping
