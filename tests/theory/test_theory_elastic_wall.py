@@ -64,8 +64,7 @@ def test_a_flat_beam_lands_as_oscillators(damping_ratio: float) -> None:
 def test_a_sharp_bow_is_pushed_at_one_point() -> None:
     """f (κ/ν)^{1/8} with its correction of order ν/κ; what is left is of order (ν/κ)^{3/2}."""
     limit, found = sharp_limit(), peak_force(100.0)
-    scaled = found.value * 100.0**0.125
-    assert scaled - limit.value == pytest.approx(limit.correction / 100.0, abs=100.0**-1.5)
+    assert found.value * 100.0**0.125 - limit.value == pytest.approx(limit.correction / 100.0, abs=100.0**-1.5)
     assert found.penetration == pytest.approx(limit.penetration * 100.0**0.25, rel=0.01)
     assert found.time == pytest.approx(limit.time * 100.0**0.25, rel=0.01)
     assert found.pressure == pytest.approx(found.penetration, rel=1e-4)
@@ -88,8 +87,7 @@ def test_the_rim_is_as_far_ahead_of_the_force_as_on_a_beam_on_springs(shear) -> 
     pipe = Impact(1.2e6, 29.0, 90.0, 0.002, 0.5, wall_stiffness=2e8)
     pipe = pipe.replace(shear_stiffness=1.2e6 / (shear * wall) ** 2 if shear else None)
     soft, rigid = (predict(one, 0.02).times[0] for one in (pipe, pipe.replace(wall_stiffness=None)))
-    longer = soft.half_contact_length - rigid.half_contact_length
-    assert longer == pytest.approx((behind - shear) * wall)
+    assert soft.half_contact_length - rigid.half_contact_length == pytest.approx((behind - shear) * wall)
     assert (soft.reaction, soft.impulse) == (rigid.reaction, rigid.impulse)
     assert predict(Impact.whole_beam(0.5).replace(wall_stiffness=1e4), 0.95).times[0].half_contact_length == 1.0
 
@@ -127,8 +125,7 @@ def test_the_place_of_the_force_reaches_the_rigid_wall_s_later_than_force_and_im
 
 @pytest.mark.verify
 def test_a_zone_that_bounces_counts_as_rigid_late() -> None:
-    found = settled(0.35, 0.25, 300.0)
-    assert 0.9 * wall_prediction.ZONE_TIME < found["force"] < wall_prediction.ZONE_TIME
+    assert 0.9 * wall_prediction.ZONE_TIME < settled(0.35, 0.25, 300.0)["force"] < wall_prediction.ZONE_TIME
 
 
 def test_the_beam_s_own_damping_spoils_the_largest_force_from_2_percent_on() -> None:

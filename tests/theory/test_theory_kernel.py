@@ -87,8 +87,6 @@ def test_the_kernel_under_tension_is_that_of_the_dispersion_relation() -> None:
     assert kernel.H_axial(-1.7) == kernel.H_axial(1.7)
 
 
-# --- φ functions -----------------------------------------------------------------------------------------------------
-
 # which derivative of H (or P) is weighed, and how
 INTEGRALS: dict[str, tuple[str, Callable[[complex, float], complex]]] = {
     "phi_nu": ("H", lambda b, x: 4 / np.pi * x**3 / (b**2 + x**2) ** 2),
