@@ -87,9 +87,8 @@ def test_the_true_arc_is_not_stretched_by_its_first_velocities():
     along, apart = np.diff(x, axis=0), np.diff([node["initialVelocities"][:2] for node in nodes], axis=0)
     sizes = np.linalg.norm(along, axis=1) * np.linalg.norm(apart, axis=1)
     assert np.abs((along * apart).sum(axis=1) / sizes).max() < 0.01
-    tangent, turning = (
-        np.array([node[f"initial{what}"][2:] for node in nodes]) for what in ("Coordinates", "Velocities")
-    )
+    at_first = "initialCoordinates", "initialVelocities"
+    tangent, turning = (np.array([node[name][2:] for node in nodes]) for name in at_first)
     tangent[:, 0] += 1.0
     assert np.abs((tangent * turning).sum(axis=1)).max() < 1e-12 < np.abs(turning[:, 0]).max()
 

@@ -152,9 +152,8 @@ def test_swapped_part_keeps_the_answer(parts):
 def test_segment_contact_loses_what_its_forces_do(friction):
     """A step's forces are those of the states that it was solved with: gaps at its end would hide 2 % of the losses.
     Where it slides, waves along the beam bend a sloping cable, whose viscosity takes 5e-4 of the losses."""
-    history = exudyn_models.simulate(
-        HALF, mesh=coarse(growth=1.04, elements=15), save=10, contact=SegmentFriction(friction)
-    )
+    mesh = coarse(growth=1.04, elements=15)
+    history = exudyn_models.simulate(HALF, mesh=mesh, save=10, contact=SegmentFriction(friction))
     budget = history.energy_budget()
     assert abs(budget["defect"]) < 1e-6 * sum(value for name, value in budget.items() if name.startswith("loss"))
     exact = 4.0 * math.sqrt(0.2 / math.pi) * float(contact_parameters(0.5).r0)  # friction changes nothing
@@ -198,24 +197,25 @@ def test_so_many_nodes_behind_the_front_are_held_until_waves_may_be_back():
     assert held == [[0, 1, 2, 3, 4], [3, 4], []]
 
 
-@pytest.mark.parametrize(("owner", "name"), [(PenaltyRun, "forces"), (Beam, "loads")])
-def test_a_force_that_is_read_wrong_shows_against_the_momentum(owner, name, monkeypatch):
+def test_a_force_that_is_read_wrong_shows_against_the_momentum(monkeypatch):
     """One per cent more at the wall, or of a load, than acts in Exudyn's system."""
     pressed = Impact.dimensionless(0.5, epsilon_alpha=2.0)
+    forces, loads = PenaltyRun.forces, Beam.loads
 
     def judged():
         return balance_of(exudyn_models.simulate(pressed, mesh=coarse(pressed), save=20))
 
-    sound, right = judged(), getattr(owner, name)
+    def more(self, *of):
+        pushes, *rest = forces(self, *of)
+        return 1.01 * pushes, *rest
+
+    sound = judged()
     assert abs(sound.points) < 1e-9 and abs(sound.law) < 1e-7 and not sound.warnings
-
-    def wrong(self, *of):
-        found = right(self, *of)
-        return 1.01 * found if name == "loads" else (1.01 * found[0], *found[1:])
-
-    monkeypatch.setattr(owner, name, wrong)
-    amiss = judged()
-    assert abs(amiss.law) > 1e-3 and any("do not agree" in warning for warning in amiss.warnings)
+    for owner, name, wrong in ((PenaltyRun, "forces", more), (Beam, "loads", lambda self, of: 1.01 * loads(self, of))):
+        with monkeypatch.context() as patch:
+            patch.setattr(owner, name, wrong)
+            amiss = judged()
+        assert abs(amiss.law) > 1e-3 and any("do not agree" in warning for warning in amiss.warnings), name
 
 
 def test_forces_of_steps_are_averaged_by_the_recurrence_of_generalised_alpha():
@@ -229,9 +229,6 @@ def test_forces_of_steps_are_averaged_by_the_recurrence_of_generalised_alpha():
 
 def test_the_largest_moment_of_a_node_is_the_larger_of_its_two_sides():
     assert nodal_largest(np.array([[[1.0, -5.0], [2.0, 3.0]]])).tolist() == [[1.0, 5.0, 3.0]]
-
-
-# --- axial force and curved walls: the model itself carries them -----------------------------------------------------
 
 
 def test_a_straight_beam_on_a_bulging_wall_is_the_bent_beam_on_a_flat_one():

@@ -121,9 +121,6 @@ def test_divergence_ends_as_an_error_and_never_as_a_history(monkeypatch):
         exudyn_models.simulate(SHORT, mesh=MESH, integrator=RK44(safety=1.0))
 
 
-# --- settling ---------------------------------------------------------------------------------------------------------
-
-
 def test_a_run_whose_contact_need_not_settle_says_how_often_it_did_not():
     solver = NewtonSolver(contact_iterations=1, contact_must_settle=False)
     history = exudyn_models.simulate(SHORT, mesh=MESH, solver=solver, save=20)

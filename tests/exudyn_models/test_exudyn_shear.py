@@ -43,9 +43,8 @@ def test_the_whole_impact_is_that_of_an_explicit_code_and_so_is_that_of_plain_so
 
 def test_without_rotary_inertia_a_load_acts_from_the_first_step_on() -> None:
     """Of a stop that is not reached no impulse, and a₀t of the middle."""
-    beam = Impact.whole_beam(0.4, shear_length=0.1, shear_ratio=0.0).replace(
-        acceleration=20.0, wall_from=0.5, wall_to=0.5
-    )
+    beam = Impact.whole_beam(0.4, shear_length=0.1, shear_ratio=0.0)
+    beam = beam.replace(acceleration=20.0, wall_from=0.5, wall_to=0.5)
     history = ExudynModel(mesh=UniformMesh(0.05)).simulate(beam, end_time=0.01, save=5)
     middle = int(np.argmin(np.abs(history.positions(0))))
     assert history.array("velocity", -1)[middle] == pytest.approx(1.2, rel=1e-9)

@@ -90,8 +90,6 @@ def test_a_load_bends_a_hinged_beam_to_its_rest_however_slowly_it_came(velocity:
     assert history.array("gap", -1).max() == pytest.approx(5.0 * 16.0 / 384.0, rel=2e-5)
 
 
-# --- a wall that gives way: its springs and dashpots are the wall's own -----------------------------------------------
-
 STIFFNESS = 1e4  # EI = μ = V₀ = 1
 
 

@@ -42,8 +42,7 @@ def stated(*, impact=IMPACT, places=PLACES, given=True, half_length=40.0, lost=0
 
 def graded(growth, first=0.05):
     """``places`` whose elements grow by a factor from 0 to beyond 40 Λ."""
-    lengths = first * growth ** np.arange(150)
-    return np.concatenate([[0.0], np.cumsum(lengths)])
+    return np.concatenate([[0.0], np.cumsum(first * growth ** np.arange(150))])
 
 
 @pytest.mark.parametrize(
