@@ -40,9 +40,6 @@ def test_error_bars_hold_with_94_of_100_numbers_covered_and_none_two_bars_off(mi
     assert coverage([*covered, *(row(error, 1e-3) for error in misses)]).holds == holds
 
 
-# --- whole beams -----------------------------------------------------------------------------------------------------
-
-
 def test_every_stratum_is_what_it_is_called(tmp_path):
     found, file = {stratum: [] for stratum in beams.STRATA}, tmp_path / "drawn.toml"
     for stratum, drawn in found.items():

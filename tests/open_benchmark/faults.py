@@ -13,7 +13,7 @@ from tests.open_benchmark.foreign import solve
 Fields = dict[str, Any]
 Rng = np.random.Generator
 ERRORS = {"error_lambda0", "error_r0", "bar_lambda0", "bar_r0"}
-PUSHED = {"push_at_a_gap", "energy"}
+PUSHED, PLACED = {"push_at_a_gap", "energy"}, {"push_at_a_gap", "distribution"}
 LATE = {"energy", "motion", "momentum"}
 ROUGH = {"noise_in_time", "noise_in_space", "distribution", "lift"}
 
@@ -122,10 +122,8 @@ FAULTS = {
     "middle_twice": Fault(pushed(middle_twice), {"momentum"}, "momentum"),
     "jitter": Fault(pushed(jitter), {"noise_in_time", "impulse_falls", "pull"}),
     "stale_gaps": Fault(booked(lambda rng, f: {"snap_gap": f["snap_gap"][[0, *range(9)]]}), {"motion"}),
-    "stretched_places": Fault(
-        booked(lambda rng, f: {"node_x": f["node_x"] * about(rng, 0.08)}), {"push_at_a_gap", "distribution", *ERRORS}
-    ),
-    "other_order": Fault(pushed(other_order), {"push_at_a_gap", "distribution"}),
+    "stretched_places": Fault(booked(lambda rng, f: {"node_x": f["node_x"] * about(rng, 0.08)}), PLACED | ERRORS),
+    "other_order": Fault(pushed(other_order), PLACED),
     "other_problem": Fault(booked(other_problem), {"motion", "momentum", "push_at_a_gap", "penetration", *ERRORS}),
     "other_clock": Fault(booked(other_clock), {"motion", "momentum"}),
 }  # fmt: skip

@@ -123,8 +123,6 @@ def test_an_elastic_problem_has_its_largest_force_within_its_record(name):
     assert 0.0 < computed(problem(name))["values"]["peak_time"] < problem(name).end_time
 
 
-# --- whole impacts, within both error bars and a tolerance -----------------------------------------------------------
-
 SHIPPED = [name for name in shipped_ids() if name.startswith("bounce-")]
 
 
@@ -138,8 +136,7 @@ def left_with(name, restitution, drift=0.0):
 
 @pytest.mark.parametrize("name", SHIPPED)
 def test_a_restitution_is_held_against_its_reference_within_bars_and_tolerance(name):
-    asked = problem(name)
-    exact = reference(asked)
+    exact = reference(problem(name))
     value, error = exact.values["restitution"], exact.errors["restitution"]
     assert value is not None and 0.0 < error < 1e-3
     right = score(left_with(name, 1.008 * value))
@@ -160,8 +157,7 @@ def test_other_bounces_are_held_against_a_run_with_a_bar_and_none_against_a_band
     found, known = reference(coarse), reference(problem(SHIPPED[-1]))
     assert abs(found.values["restitution"] - known.values["restitution"]) <= found.errors["restitution"] < 1e-3
     assert "Hermite" in found.source
-    undamped = reference(problem("bounce-0.7-0"))
-    assert undamped == Reference()
+    assert reference(problem("bounce-0.7-0")) == Reference()
     assert score(left_with("bounce-0.7-0", 0.2)).measured["restitution"].theory is None
 
 

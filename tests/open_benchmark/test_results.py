@@ -150,8 +150,7 @@ def test_first_order_numbers_need_the_base_they_belong_to():
 
 def test_a_window_that_grows_with_the_contact_is_not_said_to_gain_energy():
     history = method_type("self_similar")().simulate(Impact.dimensionless(0.5), end_time=0.1, save=60)
-    found = score(result_from_history(history))
-    assert [finding.name for finding in found.diagnosis] == ["clean"]
+    assert [finding.name for finding in score(result_from_history(history)).diagnosis] == ["clean"]
 
 
 @pytest.mark.parametrize("name", ["damping", "rotation", "first_touch", "opposite_wall"])

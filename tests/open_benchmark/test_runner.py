@@ -150,8 +150,7 @@ np.savez(sys.argv[2], outcome="completed", problem=problem["id"], metadata="{}",
 def test_only_nodal_histories_and_gaps_of_drawn_problems_stand_in_the_table_of_runs(tmp_path):
     names = {"clean": NODES, "declared": NODES.replace("**nodes", "**declared")}
     adapters = [adapter(tmp_path, name, source) for name, source in names.items()]
-    once = Limits(repeats=1)
-    rows = campaign(adapters, ["point-2"], tmp_path / "out", limits=once, seed=4)
+    rows = campaign(adapters, ["point-2"], tmp_path / "out", limits=Limits(repeats=1), seed=4)
     tables = {(row.solver, row.problem == "point-2"): row.declared_because for row in rows}
     assert tables == {
         ("clean", True): "a problem whose answer is published",

@@ -69,9 +69,6 @@ def test_what_a_file_lacks_is_named_and_not_taken_for_good():
     assert found.figure("penetration") is None
 
 
-# --- answers without a run -------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("given", ["sums", "points", "gaps"])
 def test_a_table_of_answers_is_not_clean(given):
     """Somebody has the exact numbers, makes J and Jm of them, roughens them, and puts them on two points."""

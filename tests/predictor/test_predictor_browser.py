@@ -1,12 +1,12 @@
 """The page in headless Chromium: what it simulates and says, by keyboard, on a phone, from a link, from a case file."""
 
 import math
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
 from chromium import ask, assert_quiet, beyond_the_edge, disquiet, needs_chromium, opened
+from processes import until
 
 from bent_beam.cases import load_case
 from bent_beam_programs.predictor.page import write_page
@@ -36,16 +36,9 @@ def shown(browser: Any, name: str) -> str:
     return str(ask(browser, f"document.getElementById('{name}').textContent"))
 
 
-def until(browser: Any, true: Callable[[], Any]) -> None:
-    """Wait: what runs in workers, or reads a file, comes later."""
-    from selenium.webdriver.support.wait import WebDriverWait
-
-    WebDriverWait(browser, 60).until(lambda _: true())
-
-
 def simulated(browser: Any) -> Any:
     """The browser once every number has its bar."""
-    until(browser, lambda: ask(browser, "document.body.dataset.state") == "done")
+    until(lambda: ask(browser, "document.body.dataset.state") == "done", 60.0)
     return browser
 
 
@@ -103,14 +96,13 @@ def test_damping_has_three_states_and_the_page_starts_with_the_tube(chromium: An
 
 def test_a_slider_changes_the_field_last_touched_and_a_curve_follows(browser: Any, address: str) -> None:
     curve = "document.querySelector('#plot-stress path.curve')?.getAttribute('d')"
-    until(browser, lambda: ask(browser, curve))
+    until(lambda: ask(browser, curve), 60.0)
     before = ask(browser, curve)
     browser.find_element("id", "in-length").click()
-    browser.execute_script(
-        "const d = document.getElementById('drag'); d.value = 0.5; d.dispatchEvent(new Event('input'))"
-    )
+    drag = "const d = document.getElementById('drag'); d.value = 0.5; d.dispatchEvent(new Event('input'))"
+    browser.execute_script(drag)
     assert ask(browser, "document.getElementById('in-length').value") == "6"
-    until(browser, lambda: ask(browser, curve) != before)
+    until(lambda: ask(browser, curve) != before, 60.0)
     still = opened(browser, f"{address}#velocity=0")  # no field has a value that could be dragged
     still.execute_script("document.getElementById('drag').dispatchEvent(new Event('change'))")
     assert disquiet(still) == []
@@ -159,11 +151,11 @@ def test_a_case_is_saved_and_opened(chromium: Any, address: str, tmp_path: Path)
     type_into(browser, "velocity", "5")
     type_into(browser, "tension", "20")
     browser.find_element("id", "save").click()
-    until(browser, (tmp_path / "impact.toml").exists)
+    until((tmp_path / "impact.toml").exists, 60.0)
     impact = load_case(tmp_path / "impact.toml").impact
     assert impact.velocity == 5.0 and impact.axial_force == 20e3
     for name, note in (("drill_pipe", "is read"), ("two_walls", "beam.bending_stiffness is not on this page")):
         browser.find_element("id", "open").send_keys(str(Path(f"cases/{name}.toml").resolve()))
-        until(browser, lambda note=note: note in shown(browser, "note"))
+        until(lambda note=note: note in shown(browser, "note"), 60.0)
     lambda0 = contact_parameters(load_case("cases/drill_pipe.toml").impact.kappa_over_nu).lambda0
     assert f"λ₀ = {lambda0:.6g}" in shown(browser, "groups")  # what cannot be read changes nothing

@@ -137,9 +137,6 @@ def test_summary_and_headline_come_from_the_rows() -> None:
     assert "first order Hermite 20 %, Exudyn 2.5 %" in headline(leading, first, 0)
 
 
-# --- the shown impacts --------------------------------------------------------------------------------------
-
-
 def shown(name: str, label: str) -> dict[str, Any]:
     return dict(next(i.data for i in impacts() if (i.shown.name, i.label) == (name, label)))
 
