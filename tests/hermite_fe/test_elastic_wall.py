@@ -25,8 +25,7 @@ def on_springs(kappa: float, ratio: float, **more: object) -> Impact:
 @pytest.mark.parametrize(("ratio", "exact", "pressure"), [(0.0, 3.364318, 1.0), (0.25, 2.533837, 0.8107)])
 def test_the_largest_force_of_a_nearly_straight_beam_is_that_of_oscillators_side_by_side(ratio, exact, pressure):
     """κ/ν → 0: bending plays no part, and f√κ = 2√2 max ∫₀^√T R(T − s²) ds, R of an oscillator at V₀."""
-    history = COARSE.simulate(on_springs(0.005, ratio), end_time=2.6, save=9)
-    peaks = wall_peaks(history)
+    peaks = wall_peaks(COARSE.simulate(on_springs(0.005, ratio), end_time=2.6, save=9))
     assert peaks is not None and peaks.force * np.sqrt(0.005) == pytest.approx(exact, rel=2e-4)
     assert peaks.pressure == pytest.approx(pressure, rel=0.02)
 
@@ -37,9 +36,8 @@ def test_a_partly_covered_element_pushes_point_by_point_and_a_stop_as_one_spring
     random = np.random.default_rng(3)
     springs = Springs(2.0, damping, np.zeros(4), np.array([0.8]), np.array([share]), 0, 1, -1)
     at = (np.arange(200_000) + 0.5) / 200_000
-    N = np.stack(
-        [1 - 3 * at**2 + 2 * at**3, 0.8 * (at - 2 * at**2 + at**3), 3 * at**2 - 2 * at**3, 0.8 * (at**3 - at**2)]
-    )
+    cubics = 1 - 3 * at**2 + 2 * at**3, at - 2 * at**2 + at**3, 3 * at**2 - 2 * at**3, at**3 - at**2
+    N = np.array([1.0, 0.8, 1.0, 0.8])[:, None] * cubics
     N += share * np.outer([-1 / 0.8, -0.5, 1 / 0.8, -0.5], N[1] + N[3])
     thrice = np.array([[-0.1, 3.0, 0.1, 3.0], [0.2, -3.0, -0.1, -2.0]])  # so often these change sign
     for q, new in (*random.normal(size=(20, 2, 4)), thrice):

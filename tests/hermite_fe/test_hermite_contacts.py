@@ -22,9 +22,8 @@ from hermite_fe.integrators import Integrator, MasslessBoundary, MoreauJean, Sig
 from hermite_fe.run import integrate
 from hermite_fe.system import ContactRows, System
 
-STEP, GROWTH = 2e-5, 3e-3
 verify = pytest.mark.verify
-INTEGRATORS = {name: make(STEP, growth=GROWTH) for name, make in ALL.items()}
+INTEGRATORS = {name: make(2e-5, growth=3e-3) for name, make in ALL.items()}
 MESH = ScaleFreeMesh(0.01, 1.02)
 IMPACT = Impact.dimensionless(0.4, length=60.0)
 LOADED = IMPACT.replace(acceleration=0.2, fourth_derivative=1e-4)
@@ -38,8 +37,7 @@ def run(integrator: Integrator, contact: Contact, impact: Impact = IMPACT, **res
 
 
 @pytest.mark.parametrize(
-    ("name", "kind"),
-    [p if "node" in p or "signorini_position" in p else pytest.param(*p, marks=verify) for p in PAIRS],
+    ("name", "kind"), [p if "node" in p or "signorini_position" in p else pytest.param(*p, marks=verify) for p in PAIRS]
 )
 def test_the_wall_pushes_where_the_beam_touches_and_takes_its_momentum(name: str, kind: str) -> None:
     """0 ≤ p ⊥ g ≥ 0 to round-off, strictly unilateral; the impulse is the change of momentum; the budget closes."""
@@ -150,8 +148,6 @@ def test_contacts_between_nodes_are_booked_where_they_act(contact: Contact) -> N
     assert found.lift < 1e-3
 
 
-# --- a wall that pulls, a little --------------------------------------------------------------------------------------
-
 H, L = 1e-4, 0.02
 
 
@@ -190,9 +186,6 @@ def test_a_beam_leaves_a_wall_that_pulls_the_later_and_slower_the_harder_it_pull
         assert found[-1].last_contact == pytest.approx(run.time[last], abs=2e-3)
     assert found[0].restitution > 2.0 * found[1].restitution > 0.0
     assert found[0].last_contact < found[1].last_contact
-
-
-# --- contact points without mass: nothing impacts, nothing is lost ---------------------------------------------------
 
 
 def test_a_mass_behind_a_spring_without_mass_bounces_in_half_a_sine():

@@ -54,8 +54,7 @@ def test_a_free_motion_that_meets_the_wall_elsewhere_is_said_of_ends_that_follow
     impact, nodes = Impact.dimensionless(0.5, length=60.0).replace(fourth_derivative=0.02), np.linspace(0.0, 30.0, 601)
 
     def said(impact: Impact, end: str) -> list[str]:
-        far = GridViscosity(end=end)
-        return [w for w in end_warnings(impact, 0.1, nodes, far) if "meets the wall away" in w]
+        return [w for w in end_warnings(impact, 0.1, nodes, GridViscosity(end=end)) if "meets the wall away" in w]
 
     (found,) = said(impact, "following")
     assert f"x = {math.ceil(math.sqrt(12.0 * 0.5 / 0.02) / 0.05) * 0.05:.3g} m" in found

@@ -44,8 +44,7 @@ def test_the_first_mode_swings_at_its_frequency_and_loses_in_each_period_what_is
         SignoriniPosition(theta=0.5, time_step=period / 400.0, growth=0.0), 8.0 * period, save=3200,
     )  # fmt: skip
     swing = run.q[:, -2] - run.q[:, 0]
-    turns = np.flatnonzero(np.diff(np.sign(np.diff(swing)))) + 1
-    turns = turns[4:]  # the branches have forgotten the start
+    turns = np.flatnonzero(np.diff(np.sign(np.diff(swing))))[4:] + 1  # the branches have forgotten the start
     widths = np.abs(np.diff(swing[turns]))
     decrement = -2.0 * np.polyfit(np.arange(widths.size), np.log(widths), 1)[0]
     assert decrement == pytest.approx(math.pi * loss, rel=0.02)
