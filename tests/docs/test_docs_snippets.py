@@ -103,9 +103,8 @@ def without_digits(text: str) -> list[str]:
 
 
 def printed(cell: Any) -> list[str]:
-    return without_digits(
-        "".join(o.text for o in cell.get("outputs", []) if o.output_type == "stream" and o.name == "stdout")
-    )
+    streams = (output for output in cell.get("outputs", []) if output.output_type == "stream")
+    return without_digits("".join(stream.text for stream in streams if stream.name == "stdout"))
 
 
 @pytest.mark.verify
@@ -117,9 +116,7 @@ def test_tutorial_runs() -> None:
     nbformat.validate(notebook)
     stored = [printed(cell) for cell in notebook.cells]
     assert sum(map(bool, stored)) >= 5
-    nbclient.NotebookClient(
-        notebook, timeout=240, kernel_name="python3", resources={"metadata": {"path": str(ROOT / "docs")}}
-    ).execute()
+    nbclient.execute(notebook, cwd=str(ROOT / "docs"), timeout=240, kernel_name="python3")
     for cell in notebook.cells:
         assert not any(output.output_type == "error" for output in cell.get("outputs", []))
     assert [printed(cell) for cell in notebook.cells] == stored, "run docs/tutorial.ipynb and store its outputs"

@@ -19,13 +19,9 @@ PROSE = f"""(() => {{ const body = document.querySelector('.md-content').cloneNo
  body.querySelectorAll('{NOT_PROSE}').forEach(e => e.remove()); return body.textContent; }})()"""
 EMPHASISED = "[...document.querySelectorAll('.md-content em')].map(e => e.textContent)"
 LATEX = re.compile(r"\$[^$\n]*\\[a-z]+|\\(?:frac|tfrac|lambda|varepsilon|sqrt|kappa)\b")
-pytestmark = [
-    pytest.mark.verify,
-    needs_chromium,
-    pytest.mark.skipif(
-        any(importlib.util.find_spec(name) is None for name in BUILDERS), reason="pip install '.[docs]' builds the site"
-    ),
-]
+LACKING = any(importlib.util.find_spec(name) is None for name in BUILDERS)
+needs_builders = pytest.mark.skipif(LACKING, reason="pip install '.[docs]' builds the site")
+pytestmark = [pytest.mark.verify, needs_chromium, needs_builders]
 
 
 @pytest.fixture(scope="module")

@@ -204,11 +204,6 @@ def test_nothing_holds_the_system_of_a_run_that_is_over() -> None:
     assert [one() for one in kept] == [None]
 
 
-def test_a_system_of_more_steps_than_a_day_can_take_is_not_built() -> None:
-    with pytest.raises(ValueError, match=r"ask for 1e\+10 steps"):
-        exudyn_models.build(Impact.dimensionless(0.5), integrator=GeneralizedAlpha(time_step=1e-11), end_time=0.1)
-
-
 def test_a_solution_file_is_there_for_exudyns_viewer(tmp_path):
     solved(SHORT, mesh=MESH, save=10, file=str(tmp_path / "solution.txt"))
     assert LoadSolutionFile(str(tmp_path / "solution.txt"))["nRows"] == 11

@@ -89,6 +89,8 @@ REFUSED = [
     *((lambda solver=solver: exudyn_models.build(SHORT, mesh=MESH, solver=solver), "build repeats a step 5 times")
       for solver in (NewtonSolver(contact_iterations=9), NewtonSolver(contact_must_settle=False))),
     (lambda: exudyn_models.build(SHORT, mesh=MESH, save=0), "save must be"),
+    # what no day is long enough for
+    (lambda: exudyn_models.build(SHORT, integrator=GeneralizedAlpha(time_step=1e-11)), r"ask for 1e\+10 steps"),
 ]  # fmt: skip
 
 

@@ -203,12 +203,9 @@ def test_the_budget_of_a_whole_impact_closes_under_its_loads(kappa_over_nu, load
     assert abs(budget["defect"]) < within * budget["initial_energy"]
 
 
-class Hurried(Penalty):
-    solver = NewtonSolver(contact_iterations=1)  # of somebody's own, all else open
-
-
 def test_a_law_of_one_s_own_may_say_a_part_of_how_its_steps_are_solved() -> None:
-    chosen = ExudynModel(contact=Hurried()).chosen(Impact.dimensionless(0.5), 0.1).solver
+    hurried = type("Hurried", (Penalty,), {"solver": NewtonSolver(contact_iterations=1)})()  # all else is open
+    chosen = ExudynModel(contact=hurried).chosen(Impact.dimensionless(0.5), 0.1).solver
     assert chosen == dataclasses.replace(USUAL, contact_iterations=1)
 
 

@@ -68,43 +68,39 @@ def truth(system: System, b: Array, target: Array, candidate: Array, held: Array
     return inverse @ (b + G.T @ p[best]), p[best]
 
 
-def check(seed: int) -> None:
-    random = np.random.default_rng(seed)
-    system = random_system(random)
-    problem, conditions = ready(system)
-    n, m = system.dofs, len(system.contacts)
-    b = random.normal(size=n)
-    target = random.normal(size=m)
-    degenerate = random.random()
-    if degenerate < 0.1:
-        b, target = np.round(b), np.zeros(m)
-    elif degenerate < 0.3:  # some rows just touch: no gap and no reaction
-        alone, _ = truth(system, b, np.zeros(m), np.zeros(m, bool), np.zeros(m, bool))
-        there = np.einsum("jk,jk->j", system.contacts.factors, alone[system.contacts.dofs])
-        target = np.where(random.random(m) < random.choice([0.5, 0.9]), there, target)
-    candidate, held = random.random(m) < 0.9, random.random(m) < 0.1
-    exact_x, exact_p = truth(system, b, target, candidate, held)
-    scale = 1.0 + np.abs(exact_x).max() + np.abs(exact_p).max()
-    conditions.target[:], conditions.candidate[:], conditions.least[:] = target, candidate, -1.0 * held
-    x = np.zeros(n)
-    # from one guess to the next the factors are kept; one by one where exchanging many rows at once runs in a circle
-    for most_rounds in (MOST_ROUNDS, MOST_ROUNDS, MOST_ROUNDS, 0):
-        conditions.closed[:] = random.random(m) < 0.5
-        status = solve_constrained(problem.solver, problem.rows, conditions, b, x, most_rounds)
-        if degenerate < 0.3 and most_rounds == 0:  # judged more leniently, but no row is left out in silence
-            wrong, *_ = find_wrong(problem.solver, problem.rows, conditions, b, x, 1e-8)
-            assert status == CYCLING or (status == SOLVED and wrong == 0), seed
-            continue
-        assert status == SOLVED, seed
-        assert np.abs(x - exact_x).max() < 1e-7 * scale, seed
-        assert np.abs(conditions.p - exact_p).max() < 1e-7 * scale, seed
-
-
 @pytest.mark.parametrize("seeds", [range(120), pytest.param(range(1000, 11000), marks=pytest.mark.verify)], ids=len)
 def test_contact_problems_are_solved_as_by_trying_every_active_set(seeds: range) -> None:
     """Random problems, degenerate ones among them, each from three wrong guesses, and by the fall-back from none."""
     for seed in seeds:
-        check(seed)
+        random = np.random.default_rng(seed)
+        system = random_system(random)
+        problem, conditions = ready(system)
+        n, m = system.dofs, len(system.contacts)
+        b = random.normal(size=n)
+        target = random.normal(size=m)
+        degenerate = random.random()
+        if degenerate < 0.1:
+            b, target = np.round(b), np.zeros(m)
+        elif degenerate < 0.3:  # some rows just touch: no gap and no reaction
+            alone, _ = truth(system, b, np.zeros(m), np.zeros(m, bool), np.zeros(m, bool))
+            there = np.einsum("jk,jk->j", system.contacts.factors, alone[system.contacts.dofs])
+            target = np.where(random.random(m) < random.choice([0.5, 0.9]), there, target)
+        candidate, held = random.random(m) < 0.9, random.random(m) < 0.1
+        exact_x, exact_p = truth(system, b, target, candidate, held)
+        scale = 1.0 + np.abs(exact_x).max() + np.abs(exact_p).max()
+        conditions.target[:], conditions.candidate[:], conditions.least[:] = target, candidate, -1.0 * held
+        x = np.zeros(n)
+        # from one guess to the next the factors are kept; one by one where exchanging many at once runs in a circle
+        for most_rounds in (MOST_ROUNDS, MOST_ROUNDS, MOST_ROUNDS, 0):
+            conditions.closed[:] = random.random(m) < 0.5
+            status = solve_constrained(problem.solver, problem.rows, conditions, b, x, most_rounds)
+            if degenerate < 0.3 and most_rounds == 0:  # judged more leniently, but no row is left out in silence
+                wrong, *_ = find_wrong(problem.solver, problem.rows, conditions, b, x, 1e-8)
+                assert status == CYCLING or (status == SOLVED and wrong == 0), seed
+                continue
+            assert status == SOLVED, seed
+            assert np.abs(x - exact_x).max() < 1e-7 * scale, seed
+            assert np.abs(conditions.p - exact_p).max() < 1e-7 * scale, seed
 
 
 def test_the_factors_solve_like_lapack_s() -> None:

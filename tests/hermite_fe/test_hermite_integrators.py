@@ -18,7 +18,6 @@ from hermite_fe.run import integrate
 from hermite_fe.system import ContactRows, System
 from theory.ladder import BouncingBall
 
-PUSHED = [[1.0, 2.0], [0.5, -0.3]]  # load of the chain
 START = np.array([0.5, -0.2]), np.array([0.0, 1.0])
 
 
@@ -32,7 +31,7 @@ with_impact_law = pytest.mark.parametrize(
 @pytest.mark.parametrize("make", [*(pytest.param(make, id=name) for name, make in ALL.items()), of_the_guide])
 def test_order_in_smooth_motion(make: Make) -> None:
     order = 1 if make in [ALL[name] for name in FIRST_ORDER] else 2
-    system = chain(100.0, PUSHED)
+    system = chain(100.0, [[1.0, 2.0], [0.5, -0.3]])
     fine = integrate(system, *START, MoreauJean(2e-4, theta=0.5), 2.0, save=[2.0]).q[-1]
     errors = [np.abs(integrate(system, *START, make(h), 2.0, save=[2.0]).q[-1] - fine).max() for h in (0.02, 0.01)]
     assert np.log2(errors[0] / errors[1]) == pytest.approx(order, abs=0.1)

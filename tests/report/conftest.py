@@ -26,7 +26,7 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> SimpleNamespace:
     every[0].warnings.append(nasty)
     stored = [*stored_studies(), *stored_studies(studies(folder, nasty))]
 
-    def match(asked, *, progress, **how):  # type: ignore[no-untyped-def]
+    def match(asked, *, progress, **how):
         progress(1, len(asked))
         return every
 

@@ -49,10 +49,8 @@ def test_page_refers_to_nothing_outside_itself_and_its_links_lead_somewhere(writ
     assert len(ids) == len(set(ids))
     for value in re.findall(r'\s(?:src|href|srcset|action|poster|data)="([^"]*)"', written.text):
         assert value.startswith("data:") or value.removeprefix("#") in ids, value[:80]
-    style, inside = (
-        re.search(pattern, written.text, re.S)[1]  # type: ignore[index]
-        for pattern in ("<style>(.*?)</style>", '<script type="application/json" id="data">(.*?)</script>')
-    )
+    patterns = "<style>(.*?)</style>", '<script type="application/json" id="data">(.*?)</script>'
+    style, inside = (re.search(pattern, written.text, re.S)[1] for pattern in patterns)
     assert "@import" not in style and "url(" not in style
     assert "NaN" not in inside and "Infinity" not in inside
 
