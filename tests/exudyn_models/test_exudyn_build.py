@@ -129,8 +129,7 @@ def test_items_are_in_si_units_and_sensors_agree_with_one_another():
     [(2.0, 0.5663, UniformMesh(1 / 20)), pytest.param(0.5, 0.3363, None, marks=pytest.mark.verify)],
 )
 def test_plain_exudyn_gives_the_restitution_of_a_damped_beam(kappa_over_nu, expected, mesh):
-    impact = Impact.whole_beam(kappa_over_nu, relative_damping=1e-2)
-    _, read = solved(impact, end_time=0.9, mesh=mesh)
+    _, read = solved(Impact.whole_beam(kappa_over_nu, relative_damping=1e-2), end_time=0.9, mesh=mesh)
     assert read["impulse"][-1, 0] / 2.0 - 1.0 == pytest.approx(expected, abs=0.002)
 
 

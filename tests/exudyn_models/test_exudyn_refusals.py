@@ -209,6 +209,5 @@ def test_a_plate_that_lands_at_once_does_so_early_or_late_in_a_step_but_not_bit_
 
 def test_a_contact_without_a_consistent_state_is_counted_and_ends():
     """Closed it pulls, open it has entered the wall."""
-    contact = Pressed(-np.eye(1), np.ones(1))
-    settling = settled(contact)
+    settling = settled(Pressed(-np.eye(1), np.ones(1)))
     assert (settling.cycles, settling.unsettled) == (1, 0)

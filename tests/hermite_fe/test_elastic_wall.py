@@ -90,8 +90,7 @@ def test_a_straight_beam_flies_between_two_elastic_walls_like_a_point_mass() -> 
     history = COARSE.simulate(impact, end_time=2.5, save=2000)
     found, stay = hits(history), np.pi / 20.0
     assert [hit.wall for hit in found] == ["front", "opposite", "front", "opposite"]
-    begins = [k * (stay + 0.5) for k in range(4)]
-    assert [hit.begin for hit in found] == pytest.approx(begins, abs=3e-3)
+    assert [hit.begin for hit in found] == pytest.approx([k * (stay + 0.5) for k in range(4)], abs=3e-3)
     assert [hit.end - hit.begin for hit in found] == pytest.approx([stay] * 4, abs=5e-3)
     assert [hit.impulse for hit in found] == pytest.approx([4.0] * 4, rel=1e-9)
     peaks = wall_peaks(history)

@@ -94,8 +94,7 @@ def test_the_zone_stays_on_the_wall_with_the_hold() -> None:
 
 @pytest.mark.parametrize("contact", [NodeContact(), MiddleContact()])
 def test_rows_of_a_whole_beam_are_counted_from_the_middle_to_either_end(contact: Contact) -> None:
-    beam = HermiteBeam(np.linspace(-1.0, 1.0, 9), 1.0, 1.0)
-    rows = contact.rows(beam, np.zeros(18), full=True)
+    rows = contact.rows(HermiteBeam(np.linspace(-1.0, 1.0, 9), 1.0, 1.0), np.zeros(18), full=True)
     assert np.array_equal(rows.side, rows.places < 0.0)
     for side, outwards in ((0, 1), (1, -1)):
         assert np.all(np.diff(rows.rank[rows.side == side][::outwards]) == 1)
