@@ -42,27 +42,22 @@ def patched_waves(ratio: float, alpha: float, psi: float, chi: float, axial: flo
         x, kappa = front(ratio), mp.mpf(ratio)
         first = [wave(2)(x, m) for m in range(5)]
         # leading order: slope and curvature fix B₀; deflection and third derivative give r₀ and a check
-        b0 = mp.lu_solve(mp.matrix([row(first[1]), row(first[2])]), mp.matrix([-kappa * x, -kappa]))
-        b0 = mp.mpc(b0[0], b0[1])
-        residual = mp.re(b0 * first[0]) - (1 - kappa * x**2 / 2)
-        third, fourth = mp.re(b0 * first[3]), mp.re(b0 * first[4])
-        r0 = third / mp.sqrt(2 / mp.pi)
+        b0 = mp.mpc(*mp.lu_solve(mp.matrix([row(first[1]), row(first[2])]), mp.matrix([-kappa * x, -kappa])))
+        deflection, _, _, third, fourth = (mp.re(b0 * w) for w in first)
+        residual, r0 = deflection - (1 - kappa * x**2 / 2), third / mp.sqrt(2 / mp.pi)
         outside = [row(wave(4)(x, m)) for m in range(4)]
         of_axial = [mp.mpf(axial) * mp.im(b0 * w) / 2 for w in first[:4]]
         slow = [psi * x**4 / 24 + chi * x**2 / 2 + mp.mpf(alpha) / 2, psi * x**3 / 6 + chi * x]
         slow += [psi * x**2 / 2 + chi, psi * x]
         jump = [[0, 0], [0, 0], [third, 0], [fourth, -mp.sqrt(2 / mp.pi)]]  # by λ₁ and r₁
-        if alpha + axial * ratio + psi >= 0:  # unknowns Re B₁, Im B₁, λ₁, r₁
-            matrix = [[*o, *j] for o, j in zip(outside, jump)]
-            right = [s - of for s, of in zip(slow, of_axial)]
-        else:
-            # unknowns Re B₁, Im B₁, a, b, λ₁, r₁; the front moves along the wall, so that η₀ adds nothing
-            # to deflection and slope
-            inside = [[1 - x**4 / 12, x**2], [-(x**3) / 3, 2 * x], [-(x**2), 2], [-2 * x, 0]]
-            matrix = [[*outside[i], 0, 0, 0, 0] for i in (0, 1)]
-            matrix += [[*o, *(-v for v in i), *j] for o, i, j in zip(outside, inside, jump)]
-            middle = [-axial * kappa / 2, 0, 0, 0]
-            right = [slow[i] - of_axial[i] for i in (0, 1)] + [m - of for m, of in zip(middle, of_axial)]
+        detached = alpha + axial * ratio + psi < 0
+        inside = [[1 - x**4 / 12, x**2], [-(x**3) / 3, 2 * x], [-(x**2), 2], [-2 * x, 0]] if detached else 4 * [[]]
+        # unknowns Re B₁, Im B₁, where detached a, b, then λ₁, r₁
+        matrix = [[*o, *(-v for v in i), *j] for o, i, j in zip(outside, inside, jump)]
+        right = [m - of for m, of in zip([-axial * kappa / 2, 0, 0, 0] if detached else slow, of_axial)]
+        if detached:  # the front moves along the wall, so that η₀ adds nothing to deflection and slope
+            matrix += [[*outside[i], 0, 0, 0, 0] for i in (0, 1)]
+            right += [slow[i] - of_axial[i] for i in (0, 1)]
         *_, lambda1, r1 = mp.lu_solve(mp.matrix(matrix), mp.matrix(right))
         return float(lambda1), float(r1), float(residual), float(r0)
 
