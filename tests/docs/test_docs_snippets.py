@@ -28,12 +28,6 @@ PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").r
 NOT_RUN = re.compile("not run|no-run")
 
 
-def commands(body: str) -> list[list[str]]:
-    """Command lines of a block as words, comments and continued lines considered."""
-    lines = body.replace("\\\n", " ").splitlines()
-    return [words for words in (shlex.split(line, comments=True) for line in lines) if words]
-
-
 def name_of(page: Path) -> str:
     return page.relative_to(ROOT).as_posix()
 
@@ -76,8 +70,9 @@ def test_commands_and_snippets_run(page, all_of_it, own_folder, capsys):
             exec(compile(block.body, name_of(page), "exec", dont_inherit=True), space)
         elif block.language == "bash" and not NOT_RUN.search(block.options):
             capsys.readouterr()
-            for words in commands(block.body):
-                run_command(words)
+            for line in block.body.replace("\\\n", " ").splitlines():
+                if words := shlex.split(line, comments=True):
+                    run_command(words)
 
 
 def run_command(words: list[str]) -> None:

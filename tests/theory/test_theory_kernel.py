@@ -21,23 +21,14 @@ def waved(name: str, beta: mp.mpf) -> mp.mpc:
     return root / 2 - 2 * root * wave(2)(beta, 0) if name == "P" else root / turn * wave(1)(beta, ORDERS[name])
 
 
-def envelope(beta: float) -> dict[str, float]:
-    """Size of the oscillation, by which an error next to a zero is measured."""
-    b = abs(beta)
-    return {
-        "H": min(1.0, 2.0 * np.sqrt(2.0) / max(b, 1.0) ** 2),
-        "H1": min(b / 2.0, 1.4 / max(b, 1.0)),
-        "H2": 0.5,
-        "H3": b / 4.0,
-        "P": min(b, 1.25),
-    }
-
-
 @example(beta=1.5)
 @given(beta=st.floats(-1e6, 1e6, allow_subnormal=False) | st.floats(-5.0, 5.0))
 def test_kernel_functions_are_exact_anywhere(beta: float) -> None:
+    b = abs(beta)  # sizes of the oscillations, by which an error next to a zero is measured
+    sizes = {"H": min(1.0, 2.0 * np.sqrt(2.0) / max(b, 1.0) ** 2), "H1": min(b / 2.0, 1.4 / max(b, 1.0))}
+    sizes |= {"H2": 0.5, "H3": b / 4.0, "P": min(b, 1.25)}
     with mp.workdps(400):  # of the smallest β, too
-        for name, size in envelope(beta).items():
+        for name, size in sizes.items():
             exact = mp.re(waved(name, mp.mpf(beta)))
             scale = max(abs(float(exact)), size)
             assert abs(float(mp.mpf(getattr(kernel, name)(beta)) - exact)) <= 1e-13 * scale, name
@@ -95,17 +86,6 @@ INTEGRALS: dict[str, tuple[str, Callable[[complex, float], complex]]] = {
 }
 
 
-def by_integration(name: str, lam: float) -> mp.mpf:
-    """The defining integral along β = e^{iπ/4}ρ: the sector between has no pole of the weights, which are at ±iλ."""
-    kind, weight = INTEGRALS[name]
-    turn = mp.exp(mp.j * mp.pi / 4)
-
-    def integrand(rho: mp.mpf) -> mp.mpf:
-        return mp.re(waved(kind, turn * rho) * weight(turn * rho, lam) * turn)
-
-    return mp.quad(integrand, [0, lam, 20, mp.inf], maxdegree=5)
-
-
 ZEROS = {"phi_kappadot": 1.1657, "phi_lambdadot": 2.2200, "phi_s": 1.9097, "phi_r_plus_lambda_phi_kappa": 1.0083}
 RNG = np.random.default_rng(5)
 LAMBDAS = (*10.0 ** RNG.uniform(-8, 4, 60), *RNG.uniform(0.5, 4.0, 40), np.nextafter(1.5, 0.0), 1.5, *ZEROS.values())
@@ -120,7 +100,14 @@ def pairs() -> list[tuple[mp.mpf, mp.mpf]]:
 
 @pytest.mark.parametrize("name", sorted(INTEGRALS))
 def test_phi_equals_its_defining_integral(name: str) -> None:
-    assert getattr(phi, name)(1.3) == pytest.approx(float(by_integration(name, 1.3)), rel=1e-12, abs=1e-14)
+    """Along β = e^{iπ/4}ρ: the sector between has no pole of the weights, which are at ±iλ."""
+    (kind, weight), turn = INTEGRALS[name], mp.exp(mp.j * mp.pi / 4)
+
+    def integrand(rho: mp.mpf) -> mp.mpf:
+        return mp.re(waved(kind, turn * rho) * weight(turn * rho, 1.3) * turn)
+
+    integral = mp.quad(integrand, [0, 1.3, 20, mp.inf], maxdegree=5)
+    assert getattr(phi, name)(1.3) == pytest.approx(float(integral), rel=1e-12, abs=1e-14)
 
 
 @pytest.mark.parametrize("name", sorted(CLOSED))
