@@ -23,9 +23,6 @@ START = np.array([0.5, -0.2]), np.array([0.0, 1.0])
 
 GUIDES = defined_in("guide/add-integrator.md")["NewmarkProjection"]
 of_the_guide = pytest.param(GUIDES, id="the guide's", marks=pytest.mark.verify)  # compiled anew each time
-with_impact_law = pytest.mark.parametrize(
-    "make", [*(pytest.param(make, id=name) for name, make in WITH_IMPACT_LAW.items()), of_the_guide]
-)
 
 
 @pytest.mark.parametrize("make", [*(pytest.param(make, id=name) for name, make in ALL.items()), of_the_guide])
@@ -49,7 +46,9 @@ def test_lasting_contact_is_second_order_with_reactions_in_the_smooth_motion() -
 
 
 @pytest.mark.parametrize("restitution", [0.0, 0.5])
-@with_impact_law
+@pytest.mark.parametrize(
+    "make", [*(pytest.param(make, id=name) for name, make in WITH_IMPACT_LAW.items()), of_the_guide]
+)
 def test_an_oscillator_leaves_its_stop_with_the_restitution(make: Make, restitution: float) -> None:
     """Every half period an impact at v = 2A, then amplitude e·A."""
     oscillator = System(mass=[[2.0]], stiffness=[[8.0]], contacts=ContactRows([[0]], [[1.0]], [0.0]))  # ω = 2

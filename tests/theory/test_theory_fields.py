@@ -54,30 +54,25 @@ def test_convolution_equals_the_closed_form_everywhere(ratio: float) -> None:
         np.testing.assert_allclose(getattr(fast, name), scale * getattr(wave, name)(x), rtol=0.0, atol=1e-11)
 
 
-def plain_convolution(fields: ImpactFields, xi: float, tau: float) -> float:
-    """(2.7.3) as it stands after √s = √τ sin θ, on the real axis, to tan θ = 60 where little is left."""
-    p, e = fields.parameters, fields.epsilon
-    nodes, weights = np.polynomial.legendre.leggauss(10)
-    edges = np.linspace(0.0, 60.0, 3001)
-    v = (edges[:-1, None] + 0.01 * (nodes + 1.0)).ravel()
-    s, root = tau * v**2 / (1.0 + v**2), np.sqrt(tau / (1.0 + v**2))
-    front = np.sqrt(s) * (p.lambda0 + e * p.lambda1 * s)
-    left, right = (xi + front) / root, (xi - front) / root
-    of_points = sum(kernel.H(beta) + e * p.axial * root**2 * kernel.H_axial(beta) for beta in (left, right))
-    point = 2.0 / np.pi * (p.r0 + e * p.r1 * s) * root**2 * of_points
-    zone = fields.uniform_reaction / np.sqrt(2.0 * np.pi) * root**2 * (kernel.P(left) - kernel.P(right))
-    values = (point + zone * 2.0 * np.sqrt(s) * root) / (1.0 + v**2)
-    # where P(left) − P(right) tends to √(2π), which does not oscillate, the rest is known
-    rest = fields.uniform_reaction * tau**2 / 2.0 / 3601.0**2 if xi < fields.half_contact_length(tau) else 0.0
-    return float(0.01 * np.tile(weights, 3000) @ values) + rest
-
-
 @slow
 @pytest.mark.parametrize(("ratio", "loads"), [(0.5, (1, 1, 0, 0.5)), (0.5, (-1, -1, 1, 0)), (2.0, (-2, 0, 0, 1))])
 def test_convolution_equals_the_integral_as_it_stands(ratio: float, loads: tuple[float, ...]) -> None:
-    fields = ImpactFields(contact_parameters(ratio, *loads[:3], axial=loads[3]), epsilon=0.1)
+    """(2.7.3) after √s = √τ sin θ, on the real axis, to tan θ = 60 where little is left."""
+    p, e, tau = contact_parameters(ratio, *loads[:3], axial=loads[3]), 0.1, 0.4
+    fields, (nodes, weights) = ImpactFields(p, epsilon=e), np.polynomial.legendre.leggauss(10)
+    v = (np.linspace(0.0, 60.0, 3001)[:-1, None] + 0.01 * (nodes + 1.0)).ravel()
+    s, root = tau * v**2 / (1.0 + v**2), np.sqrt(tau / (1.0 + v**2))
+    front = np.sqrt(s) * (p.lambda0 + e * p.lambda1 * s)
     for xi in (0.2, 1.2, 1.9):
-        assert fields.fast_layer(xi, 0.4).deflection == pytest.approx(plain_convolution(fields, xi, 0.4), abs=1e-10)
+        left, right = (xi + front) / root, (xi - front) / root
+        of_points = sum(kernel.H(beta) + e * p.axial * root**2 * kernel.H_axial(beta) for beta in (left, right))
+        point = 2.0 / np.pi * (p.r0 + e * p.r1 * s) * root**2 * of_points
+        zone = fields.uniform_reaction / np.sqrt(2.0 * np.pi) * root**2 * (kernel.P(left) - kernel.P(right))
+        values = (point + zone * 2.0 * np.sqrt(s) * root) / (1.0 + v**2)
+        # where P(left) − P(right) tends to √(2π), which does not oscillate, the rest is known
+        rest = fields.uniform_reaction * tau**2 / 2.0 / 3601.0**2 if xi < fields.half_contact_length(tau) else 0.0
+        integral = 0.01 * np.tile(weights, 3000) @ values + rest
+        assert fields.fast_layer(xi, tau).deflection == pytest.approx(integral, abs=1e-10)
 
 
 @settings(max_examples=4)

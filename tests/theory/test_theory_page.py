@@ -9,8 +9,6 @@ from theory.contact import contact_parameters
 from theory.similarity import peak_moment
 from theory.stopped_beam import StoppedBeam
 
-PAGE = "docs/theory.md"
-
 
 def agrees(value, cell):
     number, unit = stated(cell)
@@ -18,7 +16,7 @@ def agrees(value, cell):
 
 
 def table(words):
-    return {line[0].replace("$", ""): line[1:] for line in lines_after(PAGE, words)}
+    return {line[0].replace("$", ""): line[1:] for line in lines_after("docs/theory.md", words)}
 
 
 def test_tension():

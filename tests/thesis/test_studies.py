@@ -224,13 +224,12 @@ def test_the_refusal_of_a_method_is_a_row_with_its_reason() -> None:
 
 
 SMALL = ("cases/thesis_K10.toml", "--set", "beam.length=2.0", "--set", "run.duration=0.002")
-LIST = ("--methods", "cases/methods/one_of_each.toml")
 
 
 def test_the_command_takes_methods_and_every_row_plot_and_table_carries_the_label(tmp_path: Path) -> None:
     """The labels are those of the file; a method that cannot be used is a row among the others, and no error."""
-    file, out = tmp_path / "methods.toml", tmp_path / "out"
-    assert "names the methods" in refused("study", "restitution", *SMALL, "--set", "hermite.mesh.growth=1.0", *LIST)
+    file, out, chosen = tmp_path / "methods.toml", tmp_path / "out", ("--methods", "cases/methods/one_of_each.toml")
+    assert "names the methods" in refused("study", "restitution", *SMALL, "--set", "hermite.mesh.growth=1.0", *chosen)
     file.write_text(
         '[[method]]\nlabel = "Mine"\npath = "hermite"\nmesh = {kind = "uniform", element_length = 0.05}\n'
         'integrator = {kind = "moreau_jean"}\n[[method]]\nlabel = "Endless"\npath = "self_similar"\n'
