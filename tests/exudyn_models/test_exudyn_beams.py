@@ -165,11 +165,8 @@ def test_what_plain_exudyn_reads_at_the_end_is_what_simulate_reads(impact, end, 
 @pytest.mark.parametrize("full", [False, True])
 def test_what_a_run_under_way_is_asked_for_is_what_its_record_says(full):
     told = []
-
-    def until(run, t, q, v):
-        told.append(run.whole_beam(q, v))
-
-    history = simulate(BOW, end_time=0.1, save=3, mesh=UniformMesh(0.12), full_beam=full, until=until)
+    asked = {"full_beam": full, "until": lambda run, t, q, v: told.append(run.whole_beam(q, v))}
+    history = simulate(BOW, end_time=0.1, save=3, mesh=UniformMesh(0.12), **asked)
     energy = history.array("kinetic_energy") + history.array("strain_energy")
     for k, (x, gap, velocity, whole) in enumerate(told, 1):
         record = history.positions(k), history.array("gap", k), history.array("velocity", k)

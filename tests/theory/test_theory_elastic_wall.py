@@ -95,13 +95,9 @@ def test_the_rim_is_as_far_ahead_of_the_force_as_on_a_beam_on_springs(shear) -> 
 def test_the_largest_force_is_given_up_where_loads_change_a_rigid_wall_s_by_2_percent() -> None:
     beam = Impact(1.0, 1.0, 400.0, 0.005, 0.01, wall_stiffness=1.0)
     at = predict(beam).wall.peak_force_time
-
-    def change(load: float) -> float:
-        one, other = (predict(beam.replace(wall_stiffness=None, acceleration=a), at).times[0] for a in (load, 0.0))
-        return abs(one.reaction / other.reaction - 1.0)
-
     for load in (1e-6, -1e-6):
-        enough = load * 0.02 / change(load)  # linear in small loads
+        one, other = (predict(beam.replace(wall_stiffness=None, acceleration=a), at).times[0] for a in (load, 0.0))
+        enough = load * 0.02 / abs(one.reaction / other.reaction - 1.0)  # linear in small loads
         said = [predict(beam.replace(acceleration=share * enough)).wall.spoiled_by for share in (0.9, 1.1)]
         assert said == [None, "first-order correction"]
 

@@ -102,11 +102,9 @@ def pairs() -> list[tuple[mp.mpf, mp.mpf]]:
 def test_phi_equals_its_defining_integral(name: str) -> None:
     """Along β = e^{iπ/4}ρ: the sector between has no pole of the weights, which are at ±iλ."""
     (kind, weight), turn = INTEGRALS[name], mp.exp(mp.j * mp.pi / 4)
-
-    def integrand(rho: mp.mpf) -> mp.mpf:
-        return mp.re(waved(kind, turn * rho) * weight(turn * rho, 1.3) * turn)
-
-    integral = mp.quad(integrand, [0, 1.3, 20, mp.inf], maxdegree=5)
+    integral = mp.quad(
+        lambda rho: mp.re(waved(kind, turn * rho) * weight(turn * rho, 1.3) * turn), [0, 1.3, 20, mp.inf], maxdegree=5
+    )
     assert getattr(phi, name)(1.3) == pytest.approx(float(integral), rel=1e-12, abs=1e-14)
 
 
