@@ -1,6 +1,7 @@
 """The kernel (2.3.2), (2.3.3), (2.7.12) as real parts of waves iⁿerfc; φ functions by integrals and closed forms."""
 
 from collections.abc import Callable
+from functools import cache
 
 import mpmath as mp
 import numpy as np
@@ -89,13 +90,7 @@ INTEGRALS: dict[str, tuple[str, Callable[[complex, float], complex]]] = {
 ZEROS = {"phi_kappadot": 1.1657, "phi_lambdadot": 2.2200, "phi_s": 1.9097, "phi_r_plus_lambda_phi_kappa": 1.0083}
 RNG = np.random.default_rng(5)
 LAMBDAS = (*10.0 ** RNG.uniform(-8, 4, 60), *RNG.uniform(0.5, 4.0, 40), np.nextafter(1.5, 0.0), 1.5, *ZEROS.values())
-DIGITS = 100
-
-
-@pytest.fixture(scope="module")
-def pairs() -> list[tuple[mp.mpf, mp.mpf]]:
-    with mp.workdps(DIGITS):
-        return [phi_pair(mp.mpf(lam)) for lam in LAMBDAS]
+pair = cache(lambda lam: phi_pair(mp.mpf(lam)))  # once for all functions
 
 
 @pytest.mark.parametrize("name", sorted(INTEGRALS))
@@ -109,10 +104,10 @@ def test_phi_equals_its_defining_integral(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", sorted(CLOSED))
-def test_phi_equals_its_closed_form_in_multiprecision(name: str, pairs: list[tuple[mp.mpf, mp.mpf]]) -> None:
+def test_phi_equals_its_closed_form_in_multiprecision(name: str) -> None:
     values = getattr(phi, name)(np.array(LAMBDAS))
-    with mp.workdps(DIGITS):
-        for lam, pair, value in zip(LAMBDAS, pairs, values, strict=True):
-            exact = closed_form(name, lam, pair)
+    with mp.workdps(100):
+        for lam, value in zip(LAMBDAS, values, strict=True):
+            exact = closed_form(name, lam, pair(lam))
             near_zero = abs(lam - ZEROS.get(name, -1.0)) < 0.1
             assert abs(mp.mpf(value) - exact) < (1e-14 if near_zero else 1e-13 * abs(exact)), lam
