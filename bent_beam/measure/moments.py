@@ -24,7 +24,7 @@ __all__ = [
 
 ZONE = 0.7  # of the front: what pushes there is what the zone behind the front bears
 AROUND = 0.1  # of the time, before and after
-JUMP = 0.05  # of a rim, between two saved instants: a smooth one moves on by a tenth of that
+JUMP = 0.02  # of a rim, between two saved instants: a smooth one moves on by a quarter of that
 FEW = 3  # elements
 UNSURE = 0.5  # of what a front differs from one ~ √t by
 PUSH = 1e-9  # of the largest impulse of a contact point: less is round-off
