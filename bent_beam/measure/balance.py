@@ -84,11 +84,10 @@ def balance_of(history: ImpactHistory) -> Balance:
     )
 
 
-def _late(history: ImpactHistory, *walls: str) -> int:
-    """The saved instant from which on a contact with ``walls`` is looked at. A beam that has left flies on for long,
+def _late(history: ImpactHistory, wall: str) -> int:
+    """The saved instant from which on a contact with ``wall`` is looked at. A beam that has left flies on for long,
     and may touch once more, lightly: the interval in which ``EARLY`` of the impulse is reached is never before it."""
-    taken = [np.diff(history.array(name), axis=0).clip(0.0) for name in walls if name in history]
-    gains = np.sum([one.sum(axis=1) for one in taken], axis=0)
+    gains = np.diff(history.array(wall), axis=0).clip(0.0).sum(axis=1) if wall in history else np.zeros(1)
     pushes = np.flatnonzero(gains > LEAST_PUSH * gains.max(initial=0.0))
     if not pushes.size:
         return int(np.searchsorted(history.time, LAST * history.time[-1]))
@@ -98,22 +97,25 @@ def _late(history: ImpactHistory, *walls: str) -> int:
 
 def _penetration(history: ImpactHistory) -> float | None:
     """``None`` where a wall gives way or stands along a part, or contact points are no nodes."""
-    impact, first = history.impact, _late(history, *WALLS.values())
+    impact, gaps = history.impact, {"front": history.array("gap")}
     nodal = "contact_position" not in history or "position" in history
     if impact.wall_stiffness is not None or impact.wall_in_part or not nodal:
         return None
-    fallen = impact.velocity * history.time[first:]
-    gap = history.array("gap", slice(first, None))
     if impact.opposite_wall is not None:  # flat, behind the apex at the start
         front = impact.wall_clearance - 0.5 * impact.wall_curvature * (history.positions(0) - impact.first_touch) ** 2
-        gap = np.minimum(gap, front + impact.opposite_wall - gap)
+        gaps["opposite"] = front + impact.opposite_wall - gaps["front"]
     if _ends_follow(history):  # the expansion y₀ itself is in the wall where its gap, grown so far, falls again
         x, start = np.abs(history.positions(0) - impact.first_touch), history.array("gap", 0)
-        gap = gap[:, x <= x[int(np.argmax(start))]]
+        gaps["front"] = gaps["front"][:, x <= x[int(np.argmax(start))]]
     if "position" in history:  # the free motion means something where a node may touch
-        gap = gap[:, : 1 + int(1.2 * np.flatnonzero(history.array("impulse", -1) > 0.0).max(initial=0))]
-    depth = np.abs(gap.min(axis=1, initial=0.0))
-    return float((depth[fallen > 0.0] / fallen[fallen > 0.0]).max(initial=0.0))
+        pushed = np.flatnonzero(history.array("impulse", -1) > 0.0)
+        gaps["front"] = gaps["front"][:, : 1 + int(1.2 * pushed.max(initial=0))]
+    deepest = 0.0
+    for wall, gap in gaps.items():
+        first = max(_late(history, WALLS[wall]), 1)
+        depth = np.abs(gap[first:].min(axis=1, initial=0.0))
+        deepest = max(deepest, float((depth / (impact.velocity * history.time[first:])).max(initial=0.0)))
+    return deepest
 
 
 def _pull(history: ImpactHistory) -> float | None:
