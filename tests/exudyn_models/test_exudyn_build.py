@@ -58,7 +58,7 @@ def test_the_equal_elements_of_a_zone_change_with_their_unit():
 
 
 def test_the_ends_bear_moment_and_shear_of_a_bend_in_si_units():
-    """EI q₀x²/2 and −EI q₀x of y₀ = q₀x⁴/24; a pull along the axis has no part across."""
+    """EI q₀x²/2 and −EI q₀x of y₀ = q₀x⁴/24, EI c₀t of c₀tx²/2; a pull along the axis has no part across."""
 
     def loads(end_time=None, **load):
         model = exudyn_models.build(STEEL.replace(**load), mesh=MESH, end_time=end_time)
@@ -68,6 +68,10 @@ def test_the_ends_bear_moment_and_shear_of_a_bend_in_si_units():
     scale, found = loads(fourth_derivative=0.01)
     assert found == pytest.approx([scale * 2.1e3 * 0.01 * 1.5**2 / 2.0, -scale * 2.1e3 * 0.01 * 1.5])
     assert loads(0.05, axial_force=50.0)[1] == pytest.approx([50.0])  # the beam is shorter than its model unit
+    model = exudyn_models.build(STEEL.replace(curvature_rate=0.5), mesh=MESH)
+    moment = model.mbs.GetLoad(0)["loadUserFunction"]["function"]
+    grown = moment(model.mbs, 3.0, 0.0) - moment(model.mbs, 1.0, 0.0)
+    assert grown == pytest.approx(model.scale * 2.1e3 * 0.5 * 2.0)
 
 
 def test_sections_turn_at_first_as_the_rate_of_curvature_has_it_in_si_units():

@@ -212,12 +212,25 @@ def numbers_of(pairs: list[tuple[dict[str, Any], dict[str, Any]]]) -> list[dict[
     """The page's numbers from the reading of a run and from companions that are all the same; each pair gives only
     what differs from ``read``."""
     read = {"restitution": 0.5, "impulse": 3, "lastContact": 0.6, "begin": 0.5, "apart": 0.1, "returns": [], "late": {},
-            "force": 0, "moment": 2, "time": 0.3, "steps": 1000, "course": [2, 2]}  # fmt: skip
+            "force": 0, "moment": 2, "place": 0, "time": 0.3, "frames": [{"t": 1, "force": [8, 0, 0]}], "steps": 1000,
+            "course": [2, 2]}  # fmt: skip
     expression = """given.map(([base, companion]) => {
-        const p = Beam.problem(Beam.impact(Beam.START), 0.01), runs = {};
+        const p = {...Beam.problem(Beam.impact(Beam.START), 0.01), ...base.problem}, runs = {};
         for (const name in Answer.runs(p)) runs[name] = name === "base" ? base : companion;
         return Answer.numbers(p, runs); })"""
     return list(evaluated(expression, [(read | base, read | companion) for base, companion in pairs]))
+
+
+def test_a_flat_beam_s_rebound_and_a_push_on_one_sheared_point_are_as_unsure_as_in_bounce() -> None:
+    """A push of 4 on one node of two elements: flat over 4/(2 κ_sGA (κ − M)), and never wider than an element."""
+    other = {"restitution": 0.5 + 1e-9, "impulse": 3 + 1e-9, "moment": 2 + 1e-9}
+    beams = [{"kappa": kappa, "shear": shear} for kappa, shear in ((0.5, 400), (0.02, 400), (3, 400), (3, 1), (3, 0))]
+    beams.append({"kappa": 0.5, "shear": 400, "wall": {"k": 1e4, "c": 0}})
+    found = numbers_of([({"problem": {"before": 0, "wall": None} | beam}, other) for beam in beams])
+    bars = [[one[name]["bar"] for name in ("restitution", "impulse", "moment")] for one in found]
+    shares, spread = [4e-4, 1e-2, 1e-4, 1e-4, 1e-4, 1e-4], [0.0, 0.0, 0.005, 0.25, 0.0, 0.0]
+    expected = [[1.5 * share, 3.0 * share, max(lost, 2e-4)] for share, lost in zip(shares, spread)]
+    assert [bar for one in bars for bar in one] == pytest.approx([bar for one in expected for bar in one], rel=1e-4)
 
 
 def test_maxima_that_agree_by_chance_have_a_bar_for_what_is_about_them() -> None:

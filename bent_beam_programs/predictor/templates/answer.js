@@ -46,6 +46,15 @@ const Answer = (() => {
     return max(apart - abs(other.moment - moment), 0);
   }
 
+  /** What a push that spreads over less than an element may take from the largest moment of a beam that shears
+      (bent_beam/measure/reduction.py). */
+  function spread({ shear, kappa, before, wall }, { frames, place, time, moment }) {
+    const { force } = frames.find(({ t }) => t >= time), elements = force.length - 1, at = round(place * elements);
+    const near = (value, j) => (abs(j - at) > 1 ? 0 : value / (j && j < elements ? 1 : 2)), left = before + kappa - moment;
+    const push = (at < 2 ? 2 : 1) * force.reduce((sum, value, j) => sum + near(value, j), 0) / elements;
+    return shear && !wall && left > 0 ? push / 4 * min(push / (2 * shear * left), 0.5 / elements) : 0;
+  }
+
   /** Numbers of finished runs: value and bar (null while companions are missing), or mean ± std of an ensemble. */
   function numbers(p, found) {
     const whole = Object.keys(runs(p)).every((name) => found[name]), { base, ...others } = found;
@@ -70,9 +79,12 @@ const Answer = (() => {
       const again = base.returns.filter(([, speed]) => speed <= BARS.returns * slow).map(([t]) => t - base.lastContact);
       // The last part of the contact may be none, where the velocity that it gives is within that bar.
       const graze = (base.impulse - base.earlier) / 2 <= slow ? base.lastContact - base.begin + base.apart : 0;
-      const known = { lastContact: 0.5 / steps + shifts + max(0, ...again) + graze, force: landing, moment: chatter + about };
-      const sum = bar + (known[name] || 0), least = light ? BARS.leastLight : BARS.least;
-      const number = { value: base[name], bar: sum && max(sum, least * abs(base[name])) };
+      const known = { lastContact: 0.5 / steps + shifts + max(0, ...again) + graze, force: landing,
+        moment: chatter + about + spread(p, base) };
+      const sum = bar + (known[name] || 0), share = light ? BARS.leastLight : BARS.least;
+      const flat = p.wall || !p.kappa ? 0 : min(BARS.least * max(1, p.kappa ** -2), BARS.leastFlat); // comparison/runs.py
+      const least = { restitution: max(share, flat) * abs(1 + base[name]), impulse: max(share, flat) * base[name] }[name];
+      const number = { value: base[name], bar: sum && max(sum, least ?? share * abs(base[name])) };
       if (name === "restitution") slow = number.bar;
       return [name, number];
     }));
