@@ -140,6 +140,8 @@ def whole_numbers(made: Runs) -> dict[str, Number | Band]:
         restitution = numbers_of(made, ("restitution",), known)["restitution"]
         known["last_contact"]["returns"] = _may_return(made, restitution)
         known["last_contact"]["graze"] = _may_be_none(reading, restitution)
+    if reading["midspan_moment"] == reading["peak_moment"]:
+        known["midspan_moment"] = known["peak_moment"]
     found = dict(bands_of(made, names) if made.question.band else numbers_of(made, names, known))
     if not all(run.reading["left"] for run in made.every):
         found |= {name: Number() for name in FINAL}

@@ -25,7 +25,7 @@ from comparison.workers import run_all
 LEAST = 1e-4  # of a number: its least bar; beams drawn at random were off by as much where companions agreed better
 LIGHT = 3e-4  # η/T* below which a beam has hardly any damping …
 LEAST_LIGHT = 1e-3  # … and its numbers after :data:`SHORT` this least bar, for the same reason
-LEAST_FLAT = 1e-2  # of the rebound of the flattest beams from a rigid wall; of others LEAST/(κ/ν)², if that is less
+FLATTEST = 0.1  # κ/ν: the least bar of a rebound from a rigid wall grows from 1 down to this, :data:`LEAST`/(κ/ν)²
 CHATTER = 0.01  # of the largest moment: what single nodes add to it on a zone of hardly any damping
 UNDAMPED = "no damping is stated: these numbers are those of a beam without any; state [beam] damping_ratio"
 Reading = Callable[[ImpactHistory], dict[str, Any]]
@@ -180,18 +180,21 @@ def numbers_of(
 def _scales_of_rebound(reading: Mapping[str, Any]) -> dict[str, float]:
     """Of what the least bar is a share, of numbers of a rebound: where one is a small difference, J = (1 + e)mV is not
     known better, and the energies are as e² says."""
-    if not (e := reading.get("restitution")):
+    if "restitution" not in reading:
         return {}
+    scales = {name: abs(reading[name]) for name in ("impulse", "dissipated")}
+    if not (e := reading["restitution"]):
+        return scales
     energy = 2.0 * abs((1.0 + e) / e) * reading["translation"]
-    return {"impulse": abs(reading["impulse"]), "restitution": abs(1.0 + e), "translation": energy, "vibration": energy}
+    return scales | {"restitution": abs(1.0 + e), "translation": energy, "vibration": energy}
 
 
 def _least_of_rebound(impact: Impact) -> float:
-    """Least bar of a rebound: the flatter a beam is, the more of it lands on a rigid wall while a wave passes an
+    """Least bar of a rebound: the flatter a bow is, the more of it lands on a rigid wall while a wave passes an
     element. Beams drawn at random were as much off, and the companions of some agreed better."""
-    if impact.wall_stiffness is not None or not impact.kappa_over_nu:
+    if impact.wall_stiffness is not None or impact.wall_in_part or not impact.kappa_over_nu:
         return LEAST
-    return min(max(1.0, impact.kappa_over_nu**-2) * LEAST, LEAST_FLAT)
+    return LEAST / min(max(impact.kappa_over_nu, FLATTEST), 1.0) ** 2
 
 
 def unseen_of_moment(runs: Runs) -> dict[str, float]:

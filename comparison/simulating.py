@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -159,7 +160,10 @@ def simulate_case(
     inner = runs.part(lambda reading: dict(reading["whole"]))
     whole = Bounce(case, whole_numbers(inner), inner)
     found: dict[str, Any] = {name: number for name, number in whole.in_si.items() if name in OF_WHOLE}
-    return Simulated(case, runs, runs.history, numbers_at(runs, case) | found, whole)
+    at_end, of_hit = numbers_at(runs, case), whole.in_si.get("impulse", MISSING)
+    if of_hit.value is not None and math.isclose(of_hit.value, at_end["impulse"].known, rel_tol=1e-9):
+        found["impulse"] = of_hit  # one number with one bar
+    return Simulated(case, runs, runs.history, at_end | found, whole)
 
 
 def _run(first_spread: bool, until: float, history: ImpactHistory) -> dict[str, Any]:

@@ -42,8 +42,8 @@ class Balance:
     interval in which a contact point pushed, over V₀t.
 
     penetration : deepest node in a rigid wall, over V₀t; pull : most impulse that a contact point, not held, took back
-    between two saved instants, over the most that one gave. These three look at a late contact: from half of the time
-    to the last push on, or from when four fifths of the impulse are given, if that is earlier. energy : most that
+    between two saved instants, over the most that one gave. These three look at each wall late: from half of the time
+    to its last push on, or from when four fifths of the impulse are given, if that is earlier. energy : most that
     the budget leaves at a saved instant, over the initial energy and the work of the loads; middle_slope : largest
     slope at x = 0 of a symmetric run, over the largest anywhere. ``None`` where a number means nothing."""
 

@@ -8,6 +8,7 @@ mean of √t, and is carried to the end of the time: exact for λ_c ~ √t.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -24,7 +25,7 @@ __all__ = [
 
 ZONE = 0.7  # of the front: what pushes there is what the zone behind the front bears
 AROUND = 0.1  # of the time, before and after
-JUMP = 0.02  # of a rim, between two saved instants: a smooth one moves on by a quarter of that
+JUMP, MOVES = 0.02, 4.0  # of a rim, and times what one ~ √t moves on by between two saved instants: less is no jump
 FEW = 3  # elements
 UNSURE = 0.5  # of what a front differs from one ~ √t by
 PUSH = 1e-9  # of the largest impulse of a contact point: less is round-off
@@ -237,11 +238,12 @@ def half_contact_length(history: ImpactHistory, k: int) -> float | None:
 
 def jump_of_rim(history: ImpactHistory, k: int) -> float:
     """How far the rim jumps about instant ``k``, m, where the median of :func:`half_contact_length` may as well be the
-    next interval's; 0 where it moves on by less than :data:`JUMP` of itself."""
+    next interval's; 0 of one that moves on (:data:`JUMP`, :data:`MOVES`)."""
     rims = np.sort(_rims(history, k))
     middle = rims[max((rims.size - 1) // 2 - 1, 0) : rims.size // 2 + 2]
     widest = float(np.diff(middle).max(initial=0.0))
-    return widest if rims.size and widest > JUMP * middle[-1] else 0.0
+    moves = 1.0 - math.sqrt(history.time[k - 1] / history.time[k]) if k else 1.0  # of a rim ~ √t
+    return widest if rims.size and widest > max(JUMP, MOVES * moves) * middle[-1] else 0.0
 
 
 def _rims(history: ImpactHistory, k: int) -> Array:

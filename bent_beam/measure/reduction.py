@@ -16,6 +16,7 @@ OF_RUN, OF_BEAM = 0.02, 0.002  # see _first_resolved
 RESOLVED = 10.0  # elements that a bending wave must have passed before a moment is one of the beam, not of its mesh
 SMOOTH = 3.0  # elements within √(cη), c = √(EI/μ): so many follow the start of a damped beam within 3 %
 WALLS = {"front": "impulse", "opposite": "opposite_impulse"}  # the impulses of their contact points
+PUSH_TIME, OF_TIME = 1e-3, 0.05  # T*, and of the time itself: before and after it, a push is a mean over the shorter
 MAY_BE_HELD = 0.01  # of the run: while this lasts, a start may be held
 LANDING = 1e-4  # of a force that does not stand out from those beside it, as one at a landing: its least error
 
@@ -188,20 +189,24 @@ def moment_left_out(history: ImpactHistory, until: float | None = None) -> float
 def _spread(history: ImpactHistory, peak: PeakMoment) -> float:
     """`PeakMoment.spread`. Before a rigid wall a beam that shears is flat over b on either side of the point that it
     touches, where the slope of its shear makes up for what its bending leaves of the curvature: with a push P = 2bp,
-    p/κ_sGA = (M_flat − M)/EI, and M is less by Pb/4. From half an element on, nodes show b."""
+    p/κ_sGA = (M_flat − M)/EI, and M is less by Pb/4. From half an element on, nodes show b. P is what the node pushes
+    in the mean over :data:`PUSH_TIME` about the time."""
     impact, time = history.impact, history.time
-    flat = impact.bending_stiffness * (impact.unbent_curvature - impact.wall_curvature)
-    if impact.shear_stiffness is None or impact.wall_stiffness is not None or peak.moment >= flat:
+    if impact.shear_stiffness is None or impact.wall_stiffness is not None or time.size < 2:
         return 0.0
-    k = int(np.searchsorted(time, peak.time))
-    about, element = slice(max(k - 2, 0), k + 2), element_at(history, k, peak.place - impact.first_touch)
-    given = np.diff(history.array("impulse", about)[[0, -1]], axis=0)[0]
-    near = np.abs(history.contact_positions(k) - peak.place) <= element
-    copies = 2.0 / history.sides if peak.place <= element else 1.0
-    push = copies * float(given[near].sum()) / float(np.ptp(time[about]))
-    spread = 0.5 * push * impact.bending_stiffness / (impact.shear_stiffness * (flat - peak.moment))
+    half = min(PUSH_TIME * impact.slow_time_scale, OF_TIME * peak.time)
+    first = max(int(np.searchsorted(time, peak.time - half, side="right")) - 1, 0)
+    last = max(min(int(np.searchsorted(time, peak.time + half)), time.size - 1), first + 1)
+    node = int(np.argmin(np.abs(history.contact_positions(last) - peak.place)))
+    element = element_at(history, last, peak.place - impact.first_touch)
+    given = float(np.diff(history.array("impulse", slice(first, last + 1))[[0, -1], node])[0])
+    copies = 2.0 / history.sides if peak.place <= 0.5 * element else 1.0
+    push = max(copies * given / float(time[last] - time[first]), 0.0)
+    flat = impact.bending_stiffness * (impact.unbent_curvature - impact.wall_curvature)
+    left = 2.0 * impact.shear_stiffness * max(flat - peak.moment, 0.0) / impact.bending_stiffness
     begin, end = impact.wall_span
-    return max(0.25 * push * min(spread, 0.5 * element, 0.5 * (end - begin)), 0.0)
+    widest = 0.5 * min(element, end - begin)
+    return 0.25 * push * (push / left if push < left * widest else widest)
 
 
 def _first_resolved(history: ImpactHistory, count: int) -> int:

@@ -22,7 +22,7 @@ from bent_beam_programs.predictor.coefficients import coefficients
 from comparison.bouncing import ABOUT, DAMPING_RATIOS, RETURNS
 from comparison.doubts import LEAST_RESTITUTION, SOUND, STEEP, STRAIGHTENED, STRETCHED, STUBBY, WIDE
 from comparison.readable import BEAMS, BEFORE, LIMITS, REGIMES
-from comparison.runs import CHATTER, LEAST, LEAST_FLAT, LEAST_LIGHT, LIGHT
+from comparison.runs import CHATTER, FLATTEST, LEAST, LEAST_LIGHT, LIGHT
 from hermite_fe import whole_beam
 from theory import contact_parameters, damped_point, shear, validity, wall_prediction
 from theory.second_order import second_order
@@ -36,7 +36,7 @@ WORDS = {"regimes": REGIMES, "limits": LIMITS, "before": BEFORE, "beams": BEAMS}
 DOUBTS = {"wide": WIDE, "least_restitution": LEAST_RESTITUTION, "steep": STEEP, "stubby": STUBBY,
           "straightened": STRAIGHTENED, "sound": SOUND, "stretched": STRETCHED}  # fmt: skip
 """From when on ``bentbeam bounce`` warns."""
-BARS = {"factor": FACTOR, "least": LEAST, "light": LIGHT, "leastLight": LEAST_LIGHT, "leastFlat": LEAST_FLAT,
+BARS = {"factor": FACTOR, "least": LEAST, "light": LIGHT, "leastLight": LEAST_LIGHT, "flattest": FLATTEST,
         "chatter": CHATTER, "about": ABOUT, "window": WINDOW, "returns": RETURNS, "ratios": DAMPING_RATIOS,
         "soft": SOFT}  # fmt: skip
 """Of its error bars, the damping ratios that it takes where none is stated, and on which walls it takes none."""

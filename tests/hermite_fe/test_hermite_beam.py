@@ -5,7 +5,7 @@ import pytest
 from scipy.linalg import solveh_banded
 
 from bent_beam import Impact
-from bent_beam.meshes import GradedMesh, UniformMesh
+from bent_beam.meshes import GradedMesh, ScaleFreeMesh, UniformMesh
 from hermite_fe import simulate
 from hermite_fe.banded import product
 from hermite_fe.beam import HermiteBeam, shape_functions
@@ -23,6 +23,19 @@ def test_interpolation_is_exact_for_cubics() -> None:
     q = [cubic(0.0), cubic.deriv()(0.0), cubic(0.37), cubic.deriv()(0.37)]
     for d in range(4):
         assert np.allclose(shape_functions(x / 0.37, 0.37, d) @ q, cubic.deriv(d)(x))
+
+
+@pytest.mark.parametrize("mass", [ConsistentMass(), LumpedMass(), LumpedMass(rotary=1.0 / 24.0)])
+def test_rigid_motions_strain_nothing_and_carry_the_rigid_mass(mass: Mass) -> None:
+    beam = HermiteBeam(ScaleFreeMesh(0.01, 1.1).nodes(2.0), 3.0, 5.0)
+    x = beam.nodes
+    shift, turn = beam.interpolate(np.ones_like(x), 0.0 * x), beam.interpolate(x, np.ones_like(x))
+    scale = np.abs(beam.stiffness()).max()
+    for rigid in (shift, turn):
+        assert np.abs(product(beam.stiffness(), rigid)).max() < 1e-14 * scale
+    assert shift @ product(mass.matrix(beam), shift) == pytest.approx(5.0 * 2.0, rel=1e-12)
+    if isinstance(mass, ConsistentMass):
+        assert turn @ product(mass.matrix(beam), turn) == pytest.approx(5.0 * 2.0**3 / 3.0, rel=1e-12)
 
 
 def test_a_beam_follows_its_supports() -> None:

@@ -145,7 +145,7 @@ def test_first_order_is_recovered_with_and_without_uniform_reaction(first):
 
 
 def test_noise_of_a_run_counts_in_proportion_to_its_epsilon():
-    """One error is the same share of what two runs measure, whose ever it is: r₁ is 11.66 for 10.69 at most."""
+    """An error of either run is the same share of what both measure: r₁ is 11.66 for 10.69 at most."""
     base = moments(synthetic(0.5))
     spreads = []
     for disturbed in (0.05, 0.1):

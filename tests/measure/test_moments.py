@@ -11,7 +11,7 @@ from bent_beam.measure.reduction import peak_moment
 @pytest.mark.parametrize("with_slope", [True, False])
 @pytest.mark.parametrize("natural", [None, 0.1])
 def test_the_moment_of_a_cubic_is_exact_and_the_peak_is_where_it_is_largest(with_slope, natural):
-    """y = t(ax² + bx³), a curved wall: M = EI(t(2a + 6bx) + K₀); of the first saved instant it does not count."""
+    """y = t(ax² + bx³), a curved wall: M = EI(t(2a + 6bx) + K₀). The first saved instant does not count."""
     a, b, stiffness, wall = 0.3, 0.2 if with_slope else 0.0, 2.5, 0.05  # differences are exact for a parabola
     impact = Impact(stiffness, 1.0, 4.0, 0.2, 1.0, wall_curvature=wall, natural_curvature=natural)
     time, x = np.array([9.0, 1.0, 3.0, 2.0]), np.array([0.0, 0.3, 0.7, 1.2, 2.0])

@@ -107,3 +107,10 @@ def test_momentum_equals_impulse_at_first_order() -> None:
     point = 8.0 / 3.0 * np.sqrt(2.0 / np.pi) * tau**1.5 * (p.r0 + e * p.r1 * tau / 5.0)
     zone = fields.uniform_reaction * 8.0 * tau**2.5 * (p.lambda0 / 15.0 + e * p.lambda1 * tau / 35.0)
     assert found == pytest.approx(point + zone, rel=1e-4)
+
+
+def test_fields_are_even_in_the_place_and_slopes_odd() -> None:
+    fields = ImpactFields(contact_parameters(0.3))
+    right, left = fields.beam([0.4, 3.0], 0.5), fields.beam([-0.4, -3.0], 0.5)
+    np.testing.assert_array_equal(right.deflection, left.deflection)
+    np.testing.assert_array_equal(right.slope, -left.slope)

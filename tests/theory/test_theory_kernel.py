@@ -17,7 +17,7 @@ FUNCTIONS = (*ORDERS, "P")
 
 
 def waved(name: str, beta: mp.mpf) -> mp.mpc:
-    """√(2π)e^{−iπ/4} times a wave, whose real part is the function; along β = e^{iπ/4}ρ it decays (P: to its limit)."""
+    """What the function is the real part of, as a wave: along β = e^{iπ/4}ρ that decays, for P to a limit."""
     root, turn = mp.sqrt(2 * mp.pi), mp.exp(mp.j * mp.pi / 4)
     return root / 2 - 2 * root * wave(2)(beta, 0) if name == "P" else root / turn * wave(1)(beta, ORDERS[name])
 

@@ -49,10 +49,11 @@ const Answer = (() => {
   /** What a push that spreads over less than an element may take from the largest moment of a beam that shears
       (bent_beam/measure/reduction.py). */
   function spread({ shear, kappa, before, wall }, { frames, place, time, moment }) {
-    const { force } = frames.find(({ t }) => t >= time), elements = force.length - 1, at = round(place * elements);
-    const near = (value, j) => (abs(j - at) > 1 ? 0 : value / (j && j < elements ? 1 : 2)), left = before + kappa - moment;
-    const push = (at < 2 ? 2 : 1) * force.reduce((sum, value, j) => sum + near(value, j), 0) / elements;
-    return shear && !wall && left > 0 ? push / 4 * min(push / (2 * shear * left), 0.5 / elements) : 0;
+    if (!shear || wall) return 0;
+    const { force } = frames.find(({ t }) => t >= time) ?? frames[frames.length - 1], elements = force.length - 1;
+    const j = round(place * elements), push = force[j] * (j === elements ? 0.5 : 1) / elements; // both halves of the middle
+    const left = 2 * shear * max(before + kappa - moment, 0), widest = 0.5 / elements;
+    return push / 4 * (push < left * widest ? push / left : widest);
   }
 
   /** Numbers of finished runs: value and bar (null while companions are missing), or mean ± std of an ensemble. */
@@ -82,7 +83,7 @@ const Answer = (() => {
       const known = { lastContact: 0.5 / steps + shifts + max(0, ...again) + graze, force: landing,
         moment: chatter + about + spread(p, base) };
       const sum = bar + (known[name] || 0), share = light ? BARS.leastLight : BARS.least;
-      const flat = p.wall || !p.kappa ? 0 : min(BARS.least * max(1, p.kappa ** -2), BARS.leastFlat); // comparison/runs.py
+      const flat = p.wall || !p.kappa ? 0 : BARS.least / min(max(p.kappa, BARS.flattest), 1) ** 2; // comparison/runs.py
       const least = { restitution: max(share, flat) * abs(1 + base[name]), impulse: max(share, flat) * base[name] }[name];
       const number = { value: base[name], bar: sum && max(sum, least ?? share * abs(base[name])) };
       if (name === "restitution") slow = number.bar;
