@@ -188,9 +188,9 @@ def _may_return(made: Runs, restitution: Number) -> float:
 
 def _may_be_none(reading: Mapping[str, Any], restitution: Number) -> float:
     """How much earlier the last contact may end, T*: without its last part, where that changes the velocity by less
-    than the bar of the restitution."""
+    than :data:`RETURNS` bars of the restitution."""
     contacts = reading["contacts"]
-    graze = len(contacts) > 1 and reading["last_push"] <= (restitution.bar or 0.0)
+    graze = len(contacts) > 1 and reading["last_push"] <= RETURNS * (restitution.bar or 0.0)
     return float(contacts[-1][1] - contacts[-2][1]) if graze else 0.0
 
 

@@ -253,8 +253,8 @@ def test_maxima_that_agree_by_chance_have_a_bar_for_what_is_about_them() -> None
 
 def test_the_last_part_of_a_contact_may_be_none_on_the_page_too() -> None:
     """As in ``bounce`` (comparison/test_numbers_of_runs.py): it begins at 0.5 T*, 0.1 T* after the part before it, and
-    gives half of 0.08 or of 0.12 μℓV₀; the restitution has a bar of two changes of 0.02."""
-    both = ({"earlier": 3.0 - push} for push in (0.08, 0.12))
+    gives half of 0.18 or of 0.22 μℓV₀; the restitution has a bar of two changes of 0.02."""
+    both = ({"earlier": 3.0 - push} for push in (0.18, 0.22))
     wide, narrow = numbers_of([(given, given | {"restitution": 0.52}) for given in both])
     assert wide["restitution"]["bar"] == pytest.approx(2.0 * FACTOR * 0.02)
     assert wide["lastContact"]["bar"] - narrow["lastContact"]["bar"] == pytest.approx(0.2)

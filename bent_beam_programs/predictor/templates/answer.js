@@ -78,8 +78,8 @@ const Answer = (() => {
       const light = p.eta < BARS.light, chatter = light && p.kappa < 1 && !p.wall ? BARS.chatter * base.moment : 0;
       // A multiple of the bar of its velocity, which is found first, may bring the beam to the wall again.
       const again = base.returns.filter(([, speed]) => speed <= BARS.returns * slow).map(([t]) => t - base.lastContact);
-      // The last part of the contact may be none, where the velocity that it gives is within that bar.
-      const graze = (base.impulse - base.earlier) / 2 <= slow ? base.lastContact - base.begin + base.apart : 0;
+      // The last part of the contact may be none, where the velocity that it gives is within as much.
+      const graze = (base.impulse - base.earlier) / 2 <= BARS.returns * slow ? base.lastContact - base.begin + base.apart : 0;
       const known = { lastContact: 0.5 / steps + shifts + max(0, ...again) + graze, force: landing,
         moment: chatter + about + spread(p, base) };
       const sum = bar + (known[name] || 0), share = light ? BARS.leastLight : BARS.least;
