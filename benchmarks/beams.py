@@ -40,6 +40,7 @@ from comparison.questions import OF_UNIT, Question
 from comparison.simulating import simulate_case
 from comparison.whole_numbers import NUMBERS
 from comparison.workers import run_all
+from hermite_fe.integrators import MoreauJean
 
 STRATA = ("rigid", "wall", "support", "loads", "light")
 AT_A_TIME = ("half_contact_length", "impulse", "peak_moment")
@@ -92,7 +93,11 @@ def printed(file: Path) -> dict[str, Number]:
 
 
 def references(file: Path) -> list[dict[str, float]]:
-    """The same numbers from runs :data:`FINER`, by the contact law that is chosen and by another."""
+    """The same numbers from runs :data:`FINER`, by the contact law that is chosen and by another.
+
+    At velocity level a node stays as deep in the wall as the step in which it arrived left it. Where one point touches,
+    neighbours on elements so small then push, too: the moment of one point is that of the law at the position alone.
+    """
     case = load_case(file)
     impact, end, found = case.impact, float(case.end_time), list[dict[str, float]]()
     whole = Question(impact, case.method("hermite"))
@@ -109,7 +114,8 @@ def references(file: Path) -> list[dict[str, float]]:
         if not (impact.supported or impact.wall_in_part):
             reading = whole_reading(whole.run(methods[1]))
             values |= {name: reading[name] for name in {*OF_THE_WHOLE} & {*NUMBERS, "peak_force"}}
-        found.append(values)
+        deep = impact.kappa_over_nu >= 1.0 and isinstance(methods[0].integrator, MoreauJean)
+        found.append({name: value for name, value in values.items() if not (deep and name.startswith("peak_moment"))})
     return found
 
 
@@ -121,7 +127,7 @@ def points_of(row: int, stratum: str, file: Path) -> list[Point]:
         return []
     found = []
     for name, number in numbers.items():
-        others = [one[name] for one in values if one[name] is not None]
+        others = [one[name] for one in values if one.get(name) is not None]
         unit = max(abs(number.known), 1e-3)
         error = max((abs(number.known - other) for other in others), default=math.inf)
         kappa = load_case(file).impact.kappa_over_nu

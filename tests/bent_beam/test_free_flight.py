@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from histories import history_of
 
 from bent_beam.free_flight import LOWEST_PERIOD, Separation, cannot_return, has_left, may_return
 from bent_beam.hysteresis import branches_of
@@ -42,6 +43,15 @@ def test_a_beam_that_has_left_does_not_return_and_one_that_swings_as_wide_as_it_
         assert not cannot_return(impact, x, flat + 1.01 * reach, -up, rigid + 0.1)
         assert not cannot_return(impact.replace(acceleration=1.0), x, flat + 9.0, up, rigid)
     assert not may_return(history) and may_return(history.until(0.7))
+
+
+@pytest.mark.parametrize("push", [0.0, 1.0])
+def test_a_beam_that_never_touched_has_not_left(push) -> None:
+    """It flies away as it is laid, at V₀."""
+    x, time = np.linspace(0.0, 1.0, 41), np.array([0.0, 1.0, 4.0])
+    gap, grown = time[:, None] + x**2, {"total_impulse": push * np.minimum(time, 1.0)}
+    moving = {"velocity": -np.ones((3, x.size)), "kinetic_energy": np.ones(3), "strain_energy": np.zeros(3)}
+    assert has_left(history_of(time, x, impact=Impact.whole_beam(2.0), gap=gap, **grown, **moving)) == bool(push)
 
 
 def test_tension_brings_a_hinged_beam_back_and_a_load_off_the_wall_brings_none_back() -> None:

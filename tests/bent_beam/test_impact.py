@@ -27,6 +27,8 @@ def test_groups_of_the_thesis_cases():
     assert (impact.epsilon_chi, impact.epsilon_psi) == pytest.approx((70 / 3.5**3, 7 / 3.5**3))  # l* = 1/V₀, t* = 1/V₀²
     assert impact.alpha == pytest.approx(impact.epsilon_alpha / impact.epsilon)
     assert Impact(3.0, 2.0, 2.0, 0.35, 3.5, axial_force=49.0).group("axial_force") == pytest.approx(2.0)  # N/(μV₀²)
+    damped = Impact(3.0, 4.0, 2.0, 0.35, 3.5, wall_stiffness=9.0, wall_damping=6.0)
+    assert damped.wall_damping_ratio == pytest.approx(0.5) and impact.wall_damping_ratio == 0.0  # c/(2√(kμ))
 
 
 def test_the_free_motion_is_that_of_the_thesis_and_so_are_its_derivatives():

@@ -22,6 +22,7 @@ from bent_beam.method import LONGEST_OF_WALL, separation_times, simulate_to_sepa
 from comparison.bouncing import bounce, case_of, follow_hits, problem
 from comparison.questions import Question
 from comparison.store import RunStore
+from comparison.texts import run_text
 from exudyn_models import ExudynModel
 from hermite_fe import HermiteFE
 from hermite_fe.contacts import MiddleContact, NodeContact
@@ -136,6 +137,8 @@ def test_a_run_until_separation_ends_off_the_wall_on_either_path(path, tmp_path)
     found = answered(*asked, "--set", "run.end_time=0.04", "--save", "1000")
     assert [hit["wall"] for hit in found["hits"][:2]] == ["front", "opposite"]
     assert all(hit["impulse"] > 0.0 and hit["lost"] > 0.0 for hit in found["hits"][:2])
+    heading = next(line for line in run_text(found).splitlines() if line.startswith("hit "))
+    assert all(word in heading for word in ("wall", "V before", "lost")) and "restitution" not in heading
     assert "wall.opposite" in refused(*asked, "--until", "separation")  # no separation is the last
 
 

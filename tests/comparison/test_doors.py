@@ -90,7 +90,10 @@ def check(case: Case, share: float) -> None:
     """At a share of T*, and of the whole impact."""
     time = share * case.impact.slow_time_scale
     predicted, whole = predict(case, time, fresh=True).to_dict(), bounce(case, fresh=True).to_dict()
-    at, simulated = predicted["times"][0]["simulation"], simulate_case(case, "hermite", until=time).to_dict()
+    run = simulate_case(case, "hermite", until=time)
+    at, simulated = predicted["times"][0]["simulation"], run.to_dict()
+    largest = np.argmax(np.abs(run.history.array("largest_moment")))
+    assert simulated["peak_moment_time"] == pytest.approx(run.history.time[largest], rel=0.02)
     assert all(same(at[name], simulated[theirs]) for name, theirs in NAMES.items())
     for name in ("peak_moment", "peak_stress"):
         assert (at[name]["value"], at[name]["error"]) == (simulated[name], simulated[f"{name}_error"])

@@ -7,6 +7,8 @@ import pytest
 from histories import history_of
 
 from bent_beam import Impact
+from exudyn_models import ExudynModel
+from exudyn_models.contacts import Penalty
 from exudyn_models.geometry import Scaling
 from exudyn_models.resolution import far_field
 from exudyn_models.warnings_of_run import warnings_of_run
@@ -68,6 +70,15 @@ def test_a_threshold_is_where_it_is_said_to_be(sound, amiss, says) -> None:
     assert stated(**sound) == []
     (said,) = stated(**amiss)
     assert says in said
+
+
+def test_a_penalty_that_is_too_soft_is_told_by_how_deep_the_beam_is_in_the_wall() -> None:
+    """In shares of V₀t, from a hundredth of the run on."""
+    method = ExudynModel(refine=0.25, contact=Penalty(relative_stiffness=0.1))
+    run = method.simulate(Impact.dimensionless(0.5).replace(velocity=3.0), end_time=0.02, save=200)
+    late = run.time > 0.01 * run.time[-1]
+    deepest = (-run.array("gap")[late].min(axis=1) / (3.0 * run.time[late])).max()
+    assert deepest > 0.02 and f"enters the wall by up to {deepest:.2%} of V0 t" in run.warnings[0]
 
 
 def test_a_soft_wall_may_be_entered_and_a_beam_of_its_own_length_may_end_anywhere() -> None:

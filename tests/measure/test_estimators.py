@@ -10,7 +10,15 @@ from histories import history_of
 from twins import EXACT, agree, retold
 
 from bent_beam import Impact, ImpactHistory
-from bent_beam.measure.estimators import HITS_FIRST, INSIDE, MISSING_FIRST, SIDE, first_order, leading_order
+from bent_beam.measure.estimators import (
+    HITS_FIRST,
+    INSIDE,
+    LEAST_LEADING,
+    MISSING_FIRST,
+    SIDE,
+    first_order,
+    leading_order,
+)
 from bent_beam.measure.moments import Moments, first_front, local_front, moments, one_side
 from bent_beam.measure.numbers import FACTOR, Number
 from comparison.compare import compare_histories
@@ -82,6 +90,8 @@ def test_a_zone_thrown_off_the_wall_may_have_been_pushed_that_much_too_hard(lift
     assert found.lift == lift
     assert found.r0.parts["lift"] == pytest.approx(min(lift / 0.1, 1.0) * lift * found.r0.value, rel=6e-3)
     assert found.lambda0.parts["lift"] == pytest.approx(INSIDE * min(lift / 0.1, 1.0) * lift * found.lambda0.value)
+    short = leading_order(dataclasses.replace(reduced, moment=0.05 * SIDE * tau)).lambda0
+    assert short.known < 0.06 and short.parts["least"] == pytest.approx(LEAST_LEADING * 0.1)  # of 0.1 at least
 
 
 def test_the_first_moment_is_that_of_where_the_pushes_were():
@@ -269,3 +279,4 @@ def test_two_saved_instants_tell_the_uniform_reaction_between_them():
     impulse, total = run.array("impulse")[kept], run.array("total_impulse")[kept]
     few = history_of(run.time[kept], run.positions(0), impact=run.impact, impulse=impulse, total_impulse=total)
     assert moments(few).pressure[1] == pytest.approx(0.1 * 1.5, rel=0.1)
+    assert moments(few).impulse[0] == pytest.approx(impulse[0].sum())  # nothing is known of what was before
