@@ -265,6 +265,7 @@ def test_the_default_rows_are_the_cases_of_the_thesis_that_touch_with_a_zone() -
     [
         (1.0, (0.0, 0.0, -3.0, 0.0), lambda z: 3.0 * z**2 / 2.0),
         (2.0, (0.0, 5.0, 0.0, 0.1), lambda z: 5.0 * z**4 / 24.0 + 0.1 / 2.0),
+        (0.05, (0.0, 5.0, 0.0, 0.0), lambda z: 5.0 * z**4 / 24.0),
     ],
 )
 def test_runs_of_first_order_change_the_free_motion_by_a_small_part(front, first, change) -> None:
