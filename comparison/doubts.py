@@ -27,6 +27,7 @@ STRETCHED = 0.05  # |N|/EA, from which no material of a section is linear
 STUBBY = 15.0  # radii of gyration: some four depths
 OVERDAMPED = 0.5  # of the first mode, from which a damping ratio is no material's
 STEEP = 0.3  # slope of the bow at the beam's ends from which the small-slope theory deserves a warning
+ACROSS = 0.01  # |N|/κ_sGA, likewise
 STRAIGHTENED = 0.1  # N L²/(π² EI) of either sign, from which an axial force deserves one
 NOTABLE_LOSS = 0.02  # of the initial energy, likewise
 WIDE, LEAST_RESTITUTION = 0.1, 0.3  # of a number, an error bar, likewise; a smaller restitution counts as this
@@ -78,6 +79,11 @@ def doubts(impact: Impact, section: Section | None) -> list[str]:
         found.append(
             f"the bow is free of stress and not in equilibrium under the {does}{at_rest}; where other forces hold it, "
             'give beam.tension_direction = "tangent" and impact.acceleration = 0'
+        )
+    if impact.shear_stiffness and abs(force) > ACROSS * impact.shear_stiffness:
+        found.append(
+            f"the axial force is {abs(force) / impact.shear_stiffness:.2g} of the shear stiffness: whether it acts "
+            "along the axis (hermite) or across the sections (exudyn) changes answers by that order"
         )
     if force and section is not None:
         found.append(f"stresses include |N|/A = {1e-6 * section.stress(0.0, force):.4g} MPa of the axial force")

@@ -189,24 +189,29 @@ def moment_left_out(history: ImpactHistory, until: float | None = None) -> float
 def _spread(history: ImpactHistory, peak: PeakMoment) -> float:
     """`PeakMoment.spread`. Before a rigid wall a beam that shears is flat over b on either side of the point that it
     touches, where the slope of its shear makes up for what its bending leaves of the curvature: with a push P = 2bp,
-    p/κ_sGA = (M_flat − M)/EI, and M is less by Pb/4. From half an element on, nodes show b. P is what the node pushes
-    in the mean over :data:`PUSH_TIME` about the time."""
+    p/κ_sGA = (M_flat − M)/EI, and M is less by Pb/4. From half an element on, nodes show b. Where contact may enter the
+    wall, neighbours of the point push, too, as soon as they are nearer to it than it is deep: N at the distance of an
+    element takes half of N times that from M. P and N are means over :data:`PUSH_TIME` about the time."""
     impact, time = history.impact, history.time
     if impact.shear_stiffness is None or impact.wall_stiffness is not None or time.size < 2:
         return 0.0
     half = min(PUSH_TIME * impact.slow_time_scale, OF_TIME * peak.time)
     first = max(int(np.searchsorted(time, peak.time - half, side="right")) - 1, 0)
     last = max(min(int(np.searchsorted(time, peak.time + half)), time.size - 1), first + 1)
-    node = int(np.argmin(np.abs(history.contact_positions(last) - peak.place)))
+    away = np.abs(history.contact_positions(last) - peak.place)
     element = element_at(history, last, peak.place - impact.first_touch)
-    given = float(np.diff(history.array("impulse", slice(first, last + 1))[[0, -1], node])[0])
+    node, beside = away <= away.min(), np.abs(away - away.min() - element) < 0.5 * element
+    impulse = history.array("impulse", slice(first, last + 1))
     copies = 2.0 / history.sides if peak.place <= 0.5 * element else 1.0
-    push = max(copies * given / float(time[last] - time[first]), 0.0)
+    pushes = copies * (impulse[-1] - impulse[0]) / float(time[last] - time[first])
+    push, neighbours = max(float(pushes[node].sum()), 0.0), max(float(pushes[beside].sum()), 0.0)
     flat = impact.bending_stiffness * (impact.unbent_curvature - impact.wall_curvature)
     left = 2.0 * impact.shear_stiffness * max(flat - peak.moment, 0.0) / impact.bending_stiffness
     begin, end = impact.wall_span
     widest = 0.5 * min(element, end - begin)
-    return 0.25 * push * (push / left if push < left * widest else widest)
+    spread = 0.25 * push * (push / left if push < left * widest else widest)
+    total = push + neighbours
+    return spread + max(0.5 * neighbours * element - 0.25 * total * (total / left), 0.0) if left else spread
 
 
 def _first_resolved(history: ImpactHistory, count: int) -> int:

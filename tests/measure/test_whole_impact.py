@@ -166,6 +166,8 @@ def test_what_springs_of_the_wall_hold_is_not_lost(again) -> None:
     ("changed", "moment", "element", "spread"),
     [
         ({}, 1.2, 0.3, 0.008),  # p = κ_sGA (2 − 1.2)/EI = 160 N/m, 2b = P/p = 0.02 m, Pb/4
+        ({"beside": 0.5}, 1.2, 0.3, 0.002 + 0.24 - 0.008),  # neighbours push 1.6 N, N times half an element
+        ({"beside": 0.5}, 1.2, 0.004, 0.0008),  # less than they should
         ({}, 1.2, 0.004, 0.0016),  # nodes show what is wider than an element
         ({}, 2.0, 0.004, 0.0016),  # flat by its moment alone
         ({}, 1.9999, 0.004, 0.0016),
@@ -178,13 +180,15 @@ def test_what_springs_of_the_wall_hold_is_not_lost(again) -> None:
 def test_a_push_on_one_point_of_a_sheared_beam_spreads_over_less_than_an_element(
     changed, moment, element, spread
 ) -> None:
-    """EI = 2 N m², a push of 3.2 N, by half of the beam."""
-    push = 1.6 * changed.pop("velocity", 1.0)
+    """EI = 2 N m², a push of 3.2 N, by half of the beam; a share of it ``beside`` the point, where contact is soft."""
+    changed = changed.copy()
+    push, beside = 1.6 * changed.pop("velocity", 1.0), changed.pop("beside", 0.0)
     beam = Impact(2.0, 1.0, 2.0, 0.5, 1.0, shear_stiffness=400.0, wall_curvature=-0.5).replace(**changed)
     time, x = np.linspace(0.0, 1.0, 101), np.array([0.0, element, 0.5, 0.7, 1.0])
     moments = {"largest_moment": np.where(np.arange(101) == 50, moment, 0.1), "largest_moment_place": 0.0 * time}
     moments["largest_midspan_moment"] = moments["largest_moment"]
-    run = recorded(time, push * time[:, None] * (x == 0.0), x=x, impact=beam, **moments)
+    shares = np.array([1.0 - beside, beside, 0.0, 0.0, 0.0])
+    run = recorded(time, push * time[:, None] * shares, x=x, impact=beam, **moments)
     assert peak_moment(run)[::4] == (moment, pytest.approx(spread))
 
 
