@@ -206,12 +206,14 @@ def _spread(history: ImpactHistory, peak: PeakMoment) -> float:
     pushes = copies * (impulse[-1] - impulse[0]) / float(time[last] - time[first])
     push, neighbours = max(float(pushes[node].sum()), 0.0), max(float(pushes[beside].sum()), 0.0)
     flat = impact.bending_stiffness * (impact.unbent_curvature - impact.wall_curvature)
-    left = 2.0 * impact.shear_stiffness * max(flat - peak.moment, 0.0) / impact.bending_stiffness
+    twice_p = 2.0 * impact.shear_stiffness * max(flat - peak.moment, 0.0) / impact.bending_stiffness
     begin, end = impact.wall_span
     widest = 0.5 * min(element, end - begin)
-    spread = 0.25 * push * (push / left if push < left * widest else widest)
+    spread = 0.25 * push * (push / twice_p if push < twice_p * widest else widest)
+    if not twice_p:
+        return spread
     total = push + neighbours
-    return spread + max(0.5 * neighbours * element - 0.25 * total * (total / left), 0.0) if left else spread
+    return spread + max(0.5 * neighbours * element - 0.25 * total * (total / twice_p), 0.0)
 
 
 def _first_resolved(history: ImpactHistory, count: int) -> int:
