@@ -85,7 +85,7 @@ update: $(BIN)/uv
 # compile and answer on both paths there (AT=3.13: on another Python). The lowest versions are those of what is asked
 # for here; what those ask for in turn is the newest.
 AT ?= $(BIN)/python
-QUICK := tests/test_package.py tests/bent_beam tests/theory/test_theory_contact.py tests/theory/test_theory_similarity.py \
+QUICK := tests/test_package.py tests/bent_beam tests/theory/test_theory_contact.py tests/theory/test_theory_fields.py \
 	tests/hermite_fe/test_hermite_compiled.py
 $(BIN)/uv: $(STAMP)
 	$(PIP) install uv

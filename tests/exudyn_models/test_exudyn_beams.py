@@ -19,7 +19,7 @@ from exudyn_models.integrators import RK44, Newmark
 from hermite_fe import HermiteFE
 
 NO_WALL = Penalty(relative_stiffness=1e-20, relative_damping=0.0, hold_start=0.0)
-OTHER = {"kg": 3.0, "m": 0.5, "s": 2.0}
+OTHER = {"kg": 3.0, "m": 0.5, "s": 4.0}
 BEAM = Impact(2.0, 3.0, 2.4, 1.8, 1.25, damping=4e-3, acceleration=0.8)
 BOW = BEAM.replace(curvature_rate=0.6, fourth_derivative=0.5)
 SOFT = BEAM.replace(wall_stiffness=6e3, wall_damping=40.0)
@@ -46,8 +46,10 @@ def followed(impact, end, method):
         (BEAM.replace(axial_force=20.0), 0.009, 0.012, {}),
         (BEAM.replace(axial_force=-2.5), 0.15, 0.04, {}),
         (BEAM.replace(rotation=0.3, first_touch=0.2), 0.15, 0.04, {}),
+        (BEAM.replace(rotation=-0.3, first_touch=-0.2), 0.15, 0.04, {}),
         (SHEARED.replace(axial_force=1.5), 0.15, 0.02, {}),
         (SOFT.replace(wall_from=-0.4, wall_to=0.3), 0.1, 0.03, {}),
+        (SOFT.replace(curvature_rate=0.6, fourth_derivative=0.5), 0.1, 0.03, {}),
         (SOFT.replace(curvature=0.3, left_end="hinged", right_end="clamped"), 0.1, 0.03, {}),
         (SOFT.replace(shear_stiffness=150.0, rotary_inertia=5e-3), 0.1, 0.02, {}),
         (SOFT.replace(axial_force=-2.5, tension_direction="tangent", curvature=1.0), 0.1, 0.03, {}),
@@ -114,22 +116,28 @@ def test_a_beam_is_its_half_and_the_image_of_it_however_small_its_deflections_ar
     ],
 )
 def test_without_contact_y0_is_the_motion(element, psi, chi, tension, more):
-    """In units in which nothing is one, damped; what the run says of itself is true."""
+    """In units in which nothing is one, damped; what the run says of itself is true, and plain Exudyn does the same."""
     loads = {"epsilon_alpha": 0.4, "epsilon_psi": psi, "epsilon_chi": chi, "epsilon_axial": tension, "damping": 0.05}
     impact = in_units(Impact.dimensionless(0.5, **loads).replace(**more), OTHER)
     mesh = NodesMesh(tuple(np.linspace(0.0, 1.0, 41)))
     parts = {"mesh": mesh, "element": element, "contact": NO_WALL}  # both ends of cables, half a beam of the others
-    history = simulate(impact, end_time=1.0, full_beam=element == ANCFCable(), **parts)
-    x, t = history.array("x") / 0.5, history.time[-1] / 2.0
+    parts |= {"end_time": 2.0, "full_beam": element == ANCFCable()}
+    history, model = simulate(impact, **parts), build(impact, **parts)
+    model.mbs.SolveDynamic(model.settings)
+    middle = model.mbs.GetSensorStoredData(model.sensors["midpoint"])[-1, 1:]
+    x, t = history.array("x") / 0.5, history.time[-1] / 4.0
     y0 = t - 0.25 * x**2 + 0.2 * t**2 + 0.5 * chi * x**2 * t + psi * x**4 / 24
     slope = -0.5 * x + chi * x * t + psi * x**3 / 6.0 + (psi * x / 4.0 if more else 0.0)  # and l_s² y‴
+    assert middle == pytest.approx([0.5 * (t + 0.2 * t**2), 0.125 * (1.0 + 0.4 * t)], rel=5e-4)
     exact = psi and element == ANCFCable()  # but for its shape: cubics under a quartic, no axial force
     assert_allclose(-history.array("gap")[-1] / 0.5, y0, atol=2e-5 if exact else 2e-4)
-    assert_allclose(history.array("velocity")[-1] / 0.25, 1.0 + 0.4 * t + 0.5 * chi * x**2, atol=1e-3)
+    assert_allclose(history.array("velocity")[-1] / 0.125, 1.0 + 0.4 * t + 0.5 * chi * x**2, atol=1e-3)
     assert_allclose(history.array("angle" if more else "slope")[-1], slope, atol=1e-3)
     budget = history.energy_budget()
     assert abs(budget["defect"]) < 1e-6 * budget["initial_energy"]
     assert (history.settings["ends"] == "free") is (psi == 0.0)
+    if tension:  # it arrives unbent, however stretched
+        assert history.array("strain_energy")[0] < 1e-12 and history.array("largest_moment")[0] < 1e-9
     said = [float(re.findall(r"[\d.]+", warning)[0]) for warning in history.warnings]
     assert said == pytest.approx([110.0, 8.0**0.5], abs=0.02)  # depth, % of V₀t; half length, Λ
 
@@ -139,6 +147,7 @@ def test_without_contact_y0_is_the_motion(element, psi, chi, tension, more):
     [
         (BOW, 0.15, {}),
         (BEAM.replace(rotation=0.3, first_touch=0.2), 0.15, {}),
+        (Impact.whole_beam(2.0, relative_damping=1e-2), 0.9, {}),  # until it has left
         (SOFT.replace(wall_damping=0.0), 0.1, {}),
         (SOFT.replace(wall_damping=0.0, curvature=0.3, left_end="hinged", right_end="clamped"), 0.05, {}),
         (BOW, 0.05, {"contact": SegmentFriction(friction=0.2)}),
@@ -160,6 +169,15 @@ def test_what_plain_exudyn_reads_at_the_end_is_what_simulate_reads(impact, end, 
         assert read["impulse"][-1, 0] == pytest.approx(history.array("total_impulse")[-1], rel=2e-3)
     if "peak_force" in history:
         assert read["force"].max() == pytest.approx(history.array("peak_force")[-1], rel=5e-3)
+
+
+@pytest.mark.parametrize(("end", "refine"), [(0.005, 0.25), pytest.param(0.1, 1.0, marks=pytest.mark.verify)])
+def test_a_very_small_axial_force_changes_nothing_and_an_axial_stiffness_may_be_given_beside_it(end, refine):
+    """Its stiff bar has a round-off far above the residual of an unpulled beam."""
+    weak, method = Impact.whole_beam(2.0).replace(axial_force=1e-8), ExudynModel(refine=refine)
+    pulled, free = (method.simulate(weak.replace(axial_force=n), end_time=end, save=5) for n in (1e-8, 0.0))
+    assert pulled.array("total_impulse")[-1] == pytest.approx(free.array("total_impulse")[-1], rel=1e-6)
+    assert ExudynModel(element=ANCFCable(axial_stiffness=1.0)).refuses(weak) is None
 
 
 @pytest.mark.parametrize("full", [False, True])

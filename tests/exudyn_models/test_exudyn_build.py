@@ -57,30 +57,6 @@ def test_the_equal_elements_of_a_zone_change_with_their_unit():
     assert one.size == other.size and other == pytest.approx(7.0 * one, rel=1e-9)
 
 
-def test_the_ends_bear_moment_and_shear_of_a_bend_in_si_units():
-    """EI q₀x²/2 and −EI q₀x of y₀ = q₀x⁴/24, EI c₀t of c₀tx²/2; a pull along the axis has no part across."""
-
-    def loads(end_time=None, **load):
-        model = exudyn_models.build(STEEL.replace(**load), mesh=MESH, end_time=end_time)
-        every = (model.mbs.GetLoad(n) for n in range(model.mbs.systemData.NumberOfLoads()))
-        return model.scale, [load["load"] for load in every if load["loadType"] == "Coordinate"]
-
-    scale, found = loads(fourth_derivative=0.01)
-    assert found == pytest.approx([scale * 2.1e3 * 0.01 * 1.5**2 / 2.0, -scale * 2.1e3 * 0.01 * 1.5])
-    assert loads(0.05, axial_force=50.0)[1] == pytest.approx([50.0])  # the beam is shorter than its model unit
-    model = exudyn_models.build(STEEL.replace(curvature_rate=0.5), mesh=MESH)
-    moment = model.mbs.GetLoad(0)["loadUserFunction"]["function"]
-    grown = moment(model.mbs, 3.0, 0.0) - moment(model.mbs, 1.0, 0.0)
-    assert grown == pytest.approx(model.scale * 2.1e3 * 0.5 * 2.0)
-
-
-def test_sections_turn_at_first_as_the_rate_of_curvature_has_it_in_si_units():
-    sheared = STEEL.replace(shear_stiffness=1e6, rotary_inertia=1e-3, curvature_rate=0.5)
-    model = exudyn_models.build(sheared, mesh=MESH, element=GeometricallyExact())
-    turning = model.mbs.GetNode(model.nodes[-1])["initialVelocities"][2] / model.scale
-    assert abs(turning) == pytest.approx(0.5 * 1.5, rel=1e-6)
-
-
 def test_the_true_arc_is_not_stretched_by_its_first_velocities():
     bent = STEEL.replace(curvature=0.3, curvature_rate=0.5, section_height=0.01)
     model = exudyn_models.build(bent, mesh=MESH, geometry=TrueGeometry())
@@ -98,15 +74,11 @@ def test_the_true_arc_is_not_stretched_by_its_first_velocities():
 
 
 def test_items_are_in_si_units_and_sensors_agree_with_one_another():
-    """Momentum is lost to the force; the zone stays at the wall; energy is that of the arriving beam, less losses."""
+    """Momentum is lost to the force."""
     model, read = solved(STEEL, mesh=UniformMesh(0.015), save=1500)
-    cable, node = model.mbs.GetObject(model.bodies[0]), model.mbs.GetNode(model.nodes[-1])
-    assert (cable["bendingStiffness"], cable["massPerLength"]) == pytest.approx((2.1e3, 1.6))
     pulled, stretched = STEEL.replace(axial_force=50.0), GeometricallyExact(axial_stiffness=4e6)  # N
     pulled = exudyn_models.build(pulled, mesh=UniformMesh(0.015), element=stretched)
     assert pulled.mbs.GetObject(pulled.bodies[0])["axialStiffness"] == pytest.approx(4e6)
-    assert cable["length"] == pytest.approx(0.015) and node["referenceCoordinates"][0] == pytest.approx(1.5)
-    assert node["initialVelocities"][1] == pytest.approx(STEEL.velocity * model.scale)
     contact = model.mbs.GetObject(model.contacts[1])
     assert contact["contactStiffness"] == pytest.approx(10.0 * 2.1e3 / 0.015**3)  # C EI/Δx⁴ over Δx of beam
     given = exudyn_models.build(STEEL, mesh=UniformMesh(0.015), contact=Penalty(stiffness=2e9, damping=3e4))
@@ -123,18 +95,6 @@ def test_items_are_in_si_units_and_sensors_agree_with_one_another():
     exact = impulse_of_theory(STEEL.kappa_over_nu, end / STEEL.time_scale)
     unit = STEEL.mass_per_length * STEEL.velocity * STEEL.length_scale
     assert read["impulse"][-1, 0] == pytest.approx(unit * exact, rel=5e-3)
-    assert np.abs(read["midpoint"][100:, 0]).max() < 1e-3 * STEEL.velocity * end
-    total = read["energy"].sum(axis=1)
-    assert total[0] == pytest.approx(1.6 * 3.0 * 2.0**2 / 2) and total[-1] < total[0]
-
-
-@pytest.mark.parametrize(
-    ("kappa_over_nu", "expected", "mesh"),
-    [(2.0, 0.5663, UniformMesh(1 / 20)), pytest.param(0.5, 0.3363, None, marks=pytest.mark.verify)],
-)
-def test_plain_exudyn_gives_the_restitution_of_a_damped_beam(kappa_over_nu, expected, mesh):
-    _, read = solved(Impact.whole_beam(kappa_over_nu, relative_damping=1e-2), end_time=0.9, mesh=mesh)
-    assert read["impulse"][-1, 0] / 2.0 - 1.0 == pytest.approx(expected, abs=0.002)
 
 
 @pytest.mark.filterwarnings("error")
