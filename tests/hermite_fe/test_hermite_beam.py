@@ -5,13 +5,12 @@ import pytest
 from scipy.linalg import solveh_banded
 
 from bent_beam import Impact
-from bent_beam.meshes import GradedMesh, ScaleFreeMesh, UniformMesh
+from bent_beam.meshes import GradedMesh, UniformMesh
 from hermite_fe import simulate
-from hermite_fe.banded import product
 from hermite_fe.beam import HermiteBeam, shape_functions
 from hermite_fe.contacts import NodeContact
 from hermite_fe.far_fields import GridViscosity
-from hermite_fe.integrators import INTEGRATORS, MoreauJean
+from hermite_fe.integrators import MoreauJean
 from hermite_fe.masses import ConsistentMass, LumpedMass, Mass
 from hermite_fe.model import beam_model
 
@@ -23,25 +22,6 @@ def test_interpolation_is_exact_for_cubics() -> None:
     q = [cubic(0.0), cubic.deriv()(0.0), cubic(0.37), cubic.deriv()(0.37)]
     for d in range(4):
         assert np.allclose(shape_functions(x / 0.37, 0.37, d) @ q, cubic.deriv(d)(x))
-
-
-@pytest.mark.parametrize("mass", [ConsistentMass(), LumpedMass(), LumpedMass(rotary=1.0 / 24.0)])
-def test_rigid_motions_strain_nothing_and_carry_the_rigid_mass(mass: Mass) -> None:
-    beam = HermiteBeam(ScaleFreeMesh(0.01, 1.1).nodes(2.0), 3.0, 5.0)
-    x = beam.nodes
-    shift, turn = beam.interpolate(np.ones_like(x), 0.0 * x), beam.interpolate(x, np.ones_like(x))
-    scale = np.abs(beam.stiffness()).max()
-    for rigid in (shift, turn):
-        assert np.abs(product(beam.stiffness(), rigid)).max() < 1e-14 * scale
-    assert shift @ product(mass.matrix(beam), shift) == pytest.approx(5.0 * 2.0, rel=1e-12)
-    if isinstance(mass, ConsistentMass):
-        assert turn @ product(mass.matrix(beam), turn) == pytest.approx(5.0 * 2.0**3 / 3.0, rel=1e-12)
-
-
-def test_a_beam_follows_its_supports() -> None:
-    """How it bends under a force stands in ``test_shear.py``."""
-    beam = HermiteBeam(np.linspace(0.0, 5.0, 53), 9.345e3, 1.0)
-    assert np.allclose(beam.static(np.zeros(beam.dofs), {0: 0.1, 104: 0.3})[0::2], 0.1 + 0.04 * beam.nodes)
 
 
 def test_hinton_rock_and_zienkiewicz_scale_the_diagonal_of_the_consistent_matrix() -> None:
@@ -73,27 +53,6 @@ def test_half_a_model_has_half_of_the_work_the_loads_and_the_stop_of_a_whole_bea
     assert model.copies * model.work_of_tension(bent[None]) == pytest.approx(-0.1)
     assert loads[0, -2] == pytest.approx(0.15) and model.copies * loads.sum() == pytest.approx(0.3)
     assert model.copies * model.system.springs.stiffness == 7.0
-
-
-@pytest.mark.parametrize("kind", sorted({*INTEGRATORS} - {"massless_boundary"}))  # moves masses, has no damping
-@pytest.mark.parametrize("mass", [ConsistentMass(), LumpedMass()])
-def test_momentum_is_what_wall_and_load_give_under_tension_and_damping(kind: str, mass: Mass) -> None:
-    impact = Impact.dimensionless(0.5, length=4.0, epsilon_axial=0.5, epsilon_alpha=0.1, damping=1e-3)
-    integrator, mesh, contact = INTEGRATORS[kind](time_step=2e-4), UniformMesh(0.05), FREE
-    if integrator.elastic:
-        impact, contact = impact.replace(wall_stiffness=1e4, wall_damping=50.0), None
-    parts = {"mesh": mesh, "contact": contact, "far_field": QUIET, "integrator": integrator, "mass": mass}
-    history = simulate(impact, end_time=0.05, save=5, **parts)
-    system = beam_model(impact, mesh.nodes(2.0), FREE, QUIET, full=False, mass=mass).system
-    rigid = np.tile([1.0, 0.0], 41)
-    weights = product(system.mass, rigid)[0::2]  # the slopes' part is small, and nothing where masses are lumped
-    momentum = 2.0 * history.array("velocity") @ weights
-    given = 0.1 * 4.0 * history.time - history.array("total_impulse")
-    assert momentum - momentum[0] == pytest.approx(given, abs=2e-3 if isinstance(mass, ConsistentMass) else 1e-9)
-    budget = history.energy_budget()
-    assert abs(budget["defect"]) < 1e-11 * budget["initial_energy"]
-    assert budget["loss_material"] > 0.0 and budget["loss_viscous"] == 0.0
-    assert history.array("strain_energy")[0] == 0.0  # the bow is free of stress
 
 
 @pytest.mark.parametrize("mass", [LumpedMass(1.0 / 24.0), LumpedMass(1e-3), ConsistentMass()])
