@@ -1,12 +1,23 @@
-"""The element (thesis A.6, 3.1.5, 3.1.8), masses, and the beam as a system."""
+"""The element (thesis A.6, 3.1.5, 3.1.8), masses, the beam as a system; Timoshenko's beam: element, modes, balances,
+and its whole impact beside another code.
 
+With shear, units half length = EI = μ = V₀ = 1; s = l_s, the shear length, g = κ_sG/E."""
+
+import leapfrog
 import numpy as np
 import pytest
-from scipy.linalg import solveh_banded
+from hermite_parts import dense
+from numpy.polynomial import Polynomial
+from numpy.polynomial.legendre import leggauss
+from scipy.linalg import eigh, solveh_banded
 
 from bent_beam import Impact
+from bent_beam.measure.balance import balance_of
+from bent_beam.measure.whole_impact import whole_impact
 from bent_beam.meshes import GradedMesh, UniformMesh
-from hermite_fe import simulate
+from bent_beam.modes import lowest_frequency, lowest_mode
+from hermite_fe import HermiteFE, simulate
+from hermite_fe.banded import product
 from hermite_fe.beam import HermiteBeam, shape_functions
 from hermite_fe.contacts import NodeContact
 from hermite_fe.far_fields import GridViscosity
@@ -15,6 +26,8 @@ from hermite_fe.masses import ConsistentMass, LumpedMass, Mass
 from hermite_fe.model import beam_model
 
 FREE, QUIET = NodeContact(), GridViscosity(viscosity=0.0)
+S, G = 0.05, 0.2
+BEAM = Impact.whole_beam(0.5, relative_damping=3e-3, shear_length=S, shear_ratio=G)
 
 
 def test_interpolation_is_exact_for_cubics() -> None:
@@ -68,3 +81,108 @@ def test_the_first_impact_stops_the_mass_that_moves_with_a_node(mass: Mass) -> N
         assert moved == pytest.approx(1.0)
     assert history.array("total_impulse")[-1] == pytest.approx(moved, rel=1e-4)
     assert energy[0] - energy[-1] == pytest.approx(10.0 * moved, rel=1e-4)
+
+
+def sheared(nodes: np.ndarray, s: float = S, g: float = G) -> HermiteBeam:
+    return HermiteBeam(nodes, 1.0, 1.0, s**-2, g * s**2)
+
+
+@pytest.mark.parametrize("s", [0.0, 0.2])
+def test_element_matrices_are_integrals_of_the_shape_functions_of_friedman_and_kosmatka(s: float) -> None:
+    """Without shear those of the cubics of thesis A.6, whose angle is the slope."""
+    length, bending, mass = 0.3, 3.0, 5.0
+    stiff, inertia = (bending / s**2, 0.33 * mass * s**2) if s else (None, 0.0)
+    phi = 12.0 * s**2 / length**2
+    c = 1.0 / (1.0 + phi)
+    deflection = [c * Polynomial(p) for p in ([1 + phi, -phi, -3, 2], [0, phi, 3, -2])]
+    deflection.insert(1, length * c * Polynomial([0, 1 + phi / 2, -2 - phi / 2, 1]))
+    deflection.append(length * c * Polynomial([0, -phi / 2, phi / 2 - 1, 1]))
+    angle = [c / length * Polynomial([0, -6, 6]), c * Polynomial([1 + phi, -4 - phi, 3])]
+    angle += [c / length * Polynomial([0, 6, -6]), c * Polynomial([0, phi - 2, 3])]
+    points, weights = leggauss(6)
+    at, weights = 0.5 * (points + 1.0), 0.5 * length * weights
+
+    def integral(functions: list[Polynomial]) -> np.ndarray:
+        values = np.array([f(at) for f in functions])
+        return (values * weights) @ values.T
+
+    slopes = [f.deriv() / length for f in deflection]
+    beam = HermiteBeam(np.array([0.0, length, 2.0 * length]), bending, mass, stiff, inertia)
+    for found, expected in (
+        (beam.stiffness(), bending * integral([f.deriv() / length for f in angle])
+         + (stiff or 0.0) * integral([a - b for a, b in zip(slopes, angle)])),
+        (beam.mass(), mass * integral(deflection) + inertia * integral(angle)),
+        (beam.geometric_stiffness(), integral(slopes)),
+    ):  # fmt: skip
+        assert found == pytest.approx(beam.assembled(np.stack([expected] * 2)), rel=1e-12, abs=1e-13)
+
+
+@pytest.mark.parametrize("s", [0.01, 0.3])
+def test_a_cantilever_is_exact_at_its_nodes_and_follows_its_clamp(s: float) -> None:
+    """F(x²/2 − x³/6) bent and F x s² sheared, from the clamp; its sections turn by F(x − x²/2)."""
+    beam = sheared(GradedMesh(0.05, 1.4, zone=0.1).nodes(1.0), s)
+    load, x = np.zeros(beam.dofs), beam.nodes
+    load[-2] = 2.0
+    q = beam.static(load, {0: 0.1, 1: 0.04})
+    assert q[0::2] == pytest.approx(0.1 + 0.04 * x + 2.0 * (x**2 / 2 - x**3 / 6 + s**2 * x), rel=1e-12)
+    assert q[1::2] == pytest.approx(0.04 + 2.0 * (x - x**2 / 2), rel=1e-12)
+
+
+@pytest.mark.parametrize("s", [0.02, 0.08])
+def test_the_lowest_frequency_of_a_clamped_beam_converges_to_timoshenko_s_fourfold_or_faster(s: float) -> None:
+    """That of ``bent_beam.modes`` fulfils the equations of bending and shear (``bent_beam/test_modes.py``)."""
+    held = Impact.whole_beam(0.5, shear_length=s, shear_ratio=G).replace(left_end="clamped", right_end="clamped")
+    exact, errors = 2.0 * np.pi * lowest_frequency(held), []
+    for elements in (12, 25, 50):
+        beam = sheared(np.linspace(-1.0, 1.0, elements + 1), s)
+        stiffness, mass = (dense(bands)[2:-2, 2:-2] for bands in (beam.stiffness(), beam.mass()))
+        errors.append(np.sqrt(eigh(stiffness, mass, eigvals_only=True)[0]) / exact - 1.0)
+    assert 0.0 < errors[2] < 1e-4 and 4.0 * errors[1] < errors[0] and 3.9 * errors[2] < errors[1]
+
+
+@pytest.mark.parametrize("change", [{}, {"acceleration": 4.0}, {"fourth_derivative": 2.0}, {"wall_stiffness": 1e4}])
+def test_momentum_and_energy_close_and_half_the_beam_is_half_of_it(change: dict[str, float]) -> None:
+    impact = BEAM.replace(**change)
+    runs = [HermiteFE(mesh=UniformMesh(0.02), full_beam=full).for_whole_beam(impact) for full in (False, True)]
+    half, full = (run.simulate(impact, end_time=0.1, save=200) for run in runs)
+    budget, balance = half.energy_budget(), balance_of(half)
+    assert abs(budget["defect"]) < 1e-9 * budget["initial_energy"] and budget["loss_material"] > 0.0
+    assert balance.momentum < 1e-9 and balance.second_moment < 5e-3 and balance.warnings == []
+    spread = HermiteBeam(half.positions(0), 1.0, 1.0, S**-2, G * S**2).mass()
+    v = np.stack([half.array("velocity"), half.array("angular_velocity")], axis=2).reshape(half.time.size, -1)
+    momentum = 2.0 * v @ product(spread, np.tile([1.0, 0.0], half.positions(0).size))
+    given = impact.load_within(1.0) * half.time - half.array("total_impulse")
+    assert momentum - momentum[0] == pytest.approx(given, abs=1e-9)
+    assert full.array("total_impulse") == pytest.approx(half.array("total_impulse"), abs=1e-5)
+    middle = full.positions(0).size // 2
+    assert full.array("bending_moment")[:, middle:] == pytest.approx(half.array("bending_moment"), abs=1e-3)
+    assert np.abs(half.array("bending_moment")).max() <= half.moment.max() * (1.0 + 1e-9)
+
+
+@pytest.mark.parametrize(("kappa", "g"), [(0.5, 0.2), (1.5, 0.33)])
+def test_an_explicit_code_of_its_own_finds_the_same_whole_impact(kappa: float, g: float) -> None:
+    impact = Impact.whole_beam(kappa, relative_damping=3e-3, shear_length=S, shear_ratio=g)
+    method = HermiteFE(mesh=UniformMesh(0.02), integrator=MoreauJean(theta=0.5, time_step=1e-4, growth=0.0))
+    found = whole_impact(method.for_whole_beam(impact).simulate(impact, end_time=1.1, save=300))
+    restitution, impulse, moment = leapfrog.whole_impact(kappa, 3e-3, S, g, 50, 1.1)
+    assert (0.5 * found.impulse - 1.0, found.impulse) == pytest.approx((restitution, impulse), abs=2e-3)
+    assert found.peak_moment == pytest.approx(moment, rel=1e-2)
+    bare = whole_impact(method.for_whole_beam(impact).simulate(impact.unsheared, end_time=1.1, save=300))
+    assert abs(bare.peak_moment / moment - 1.0) > 0.01 or abs(bare.impulse - impulse) > 1e-2  # without shear
+
+
+@pytest.mark.parametrize("ends", [("clamped", "clamped"), ("clamped", "hinged"), ("free", "clamped")])
+@pytest.mark.parametrize("pull", [0.0, 30.0])
+def test_a_held_beam_swings_in_the_mode_in_which_it_starts(ends, pull) -> None:
+    """With shear and tension, the wall out of reach: 1.5e-5 of its swing, 1e-2 if it starts in bending's alone."""
+    left, right = ends
+    held = BEAM.replace(curvature=0.0, damping=0.0, left_end=left, right_end=right, axial_force=pull)
+    impact = held.replace(wall_clearance=9.0, wall_stiffness=1e3)
+    run = HermiteFE(mesh=UniformMesh(1 / 50)).simulate(impact, end_time=0.8, save=40)
+    mode, _ = lowest_mode(impact, run.positions(0))
+    moved = 9.0 - run.array("gap")[1:]
+    assert np.abs(moved[:, -1]).max() < 1e-14  # a held end stays
+    swing = moved @ mode / (mode @ mode)
+    assert moved == pytest.approx(np.outer(swing, mode), abs=5e-5 * np.abs(moved).max())
+    omega = 2.0 * np.pi * lowest_frequency(impact)
+    assert swing == pytest.approx(np.sin(omega * run.time[1:]) / omega, rel=1e-3, abs=1e-4 / omega)

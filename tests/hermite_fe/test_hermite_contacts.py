@@ -72,7 +72,7 @@ def is_half_of(full: ImpactHistory, half: ImpactHistory, within: float, *more: s
     ids=str,
 )
 def test_half_and_full_beam_agree(name: str, contact: Contact) -> None:
-    """The row in the middle of a half beam stands for half a node. With shear: in ``test_shear.py``."""
+    """The row in the middle of a half beam stands for half a node. With shear: in ``test_hermite_beam.py``."""
     half, full = (run(INTEGRATORS[name], contact, LOADED, full_beam=full) for full in (False, True))
     is_half_of(full, half, 1e-8, "loss_viscous", "held_impulse")
     assert (half.array("held_impulse")[-1] < 0.0) == contact.sticks
