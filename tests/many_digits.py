@@ -25,11 +25,7 @@ CLOSED: dict[str, Callable[[mp.mpf], tuple[mp.mpf, mp.mpf, mp.mpf]]] = {
     "phi_t": lambda x: (x**3 / 3, x * (12 - x**4) / 24, -(x**2) / ROOT),
     "one_minus_phi_p": lambda x: (-mp.sqrt(PI / 8) * x, 0, 1),
     "phi_nu_minus_kappa": lambda x: (1, -1, 0),
-    "phi_r_plus_lambda_phi_kappa": lambda x: (
-        x**3 * (x**4 - 84) / 192,
-        x * (3 * x**4 - 12) / 32,
-        -(x**2) * (x**4 - 60) / 48 / ROOT,
-    ),
+    "phi_r_plus_lambda_phi_kappa": lambda x: tuple(map(mp.fadd, CLOSED["phi_r"](x), (0, x, 0))),
     "phi_kappa_minus_s": lambda x: (-(x**2) * (36 - x**4) / 48, x**4 / 4, -x * (x**4 - 24) / 12 / ROOT),
 }
 

@@ -141,11 +141,7 @@ def test_damping_ratio_and_loss_factor_are_the_same_time_constant():
         ({"section": None}, "beam.bending_stiffness is required"),
         ({"section": PIPE | {"wall_thickness": 0.1}}, "walls cross"),
         ({"section": PIPE | {"inner_diameter": 0.1}}, "say the same"),
-        ({"section": PIPE | {"kind": "tube"}}, "tube"),
         ({"section": PIPE | {"poisson_ratio": 0.51}}, "poisson_ratio"),
-        # what cannot be calculated with
-        ({"section": PIPE | {"outer_diameter": 1e154}}, r"section.outer_diameter must not exceed 1e\+60 .*1e\+154"),
-        ({"section": PIPE | {"density": 5e-324}}, "section.density must be at least 1e-60 .*5e-324"),
         ({"section": {"kind": "round_bar", "diameter": 1e55, **STEEL}}, "section: bending_stiffness must not exceed"),
         ({"impact": {"drop_height": 1.0, "gravity_angle": 90.0}}, "needs gravity towards the wall"),
         ({"beam": {"curvature": 0.1, "loss_factor": 0.1}}, "loss_frequency is required"),
@@ -164,7 +160,6 @@ def test_damping_ratio_and_loss_factor_are_the_same_time_constant():
         ({"impact": {"velocity": 1.0, "gravity": 1.0, "acceleration": 1.0}}, "acceleration = 1.0 and impact.gravity"),
         ({"wall": {"curvature": 0.002}}, "wall.curvature must be less"),
         ({"wall": {"damping": 1.0}}, "wall.damping has no effect on a rigid wall"),
-        ({"wall": {"stiffness": 1e6, "damping_ratio": 0.1, "from": 1.0, "to": 1.0}}, "nothing at a stop"),
         ({"wall": {"stiffness": 1e6, "damping_ratio": 0.1, "from": 15.0}}, "nothing at a stop"),
         ({"section": 0}, "section"),
         ({"section": STEEL | {"kind": "general", "poisson_ratio": 0.3}}, "poisson_ratio is not a known setting"),
@@ -179,7 +174,6 @@ def test_damping_ratio_and_loss_factor_are_the_same_time_constant():
         # mistakes
         ({"beam": BOW | {"length": -1.0}}, r"^beam.length must be positive \(got -1.0\)"),
         ({"beam": BOW | {"lengt": 1.0}}, r"beam.lengt .* \(did you mean length\?\)"),
-        ({"impact": {"velocity": "fast"}}, r"impact.velocity must be a finite number in m/s, .*\(got 'fast'\)"),
         ({"beam": BOW | {"length": "40cm"}}, r"^beam.length must be a finite number in m, .*without its unit .*'40cm'"),
         ({"beam": BOW | {"damping_ratio": "1 %"}}, r"finite number, with a decimal point and without its unit .*'1 %'"),
         ({"impact": None}, "impact is required"),
@@ -268,15 +262,11 @@ def test_an_amplitude_at_a_frequency_is_a_velocity_and_what_is_laid_over_a_case_
         assert undamped.damping_stated and undamped.impact.damping == undamped.impact.hysteretic_loss == 0.0
 
 
-@pytest.mark.parametrize(
-    ("first", "second"),
-    [("beam.curvature=0.3", "beam.dogleg=1"), ("beam.ends=free", "beam=1"),
-     ("impact.velocity=3", "impact . velocity=3"), ("run.end_time=1", "run.duration=1"),
-     ("section.inner_diameter=1", "section.wall_thickness=1")],
-)  # fmt: skip
-def test_two_settings_that_say_the_same_are_refused(first: str, second: str) -> None:
-    with pytest.raises(InputError, match=re.escape(first.partition("=")[0])):
-        lay_over({}, [first, second])
+def test_two_settings_that_say_the_same_are_refused() -> None:
+    both = ("beam.curvature=0.3, beam.dogleg=1", "beam.ends=free, beam=1", "impact.velocity=3, impact . velocity=3")
+    for pair in (*both, "run.end_time=1, run.duration=1", "section.inner_diameter=1, section.wall_thickness=1"):
+        with pytest.raises(InputError, match=re.escape(pair.partition("=")[0])):
+            lay_over({}, pair.split(", "))
 
 
 def test_assignments_are_laid_over_and_a_mistake_for_one_path_is_found_with_another():

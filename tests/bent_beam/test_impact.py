@@ -81,8 +81,8 @@ def test_numbers_that_are_none_or_of_the_wrong_sign_are_refused_by_name(value):
 
 
 def test_scales_beyond_floating_point_are_refused():
-    refused = {"velocity must be at least 1e-60": {"velocity": 1e-300}, "time_scale": {"velocity": 1e40}}  # 1e-80 s
-    refused |= {"section_height must not exceed": {"section_height": 1e61}}  # in none of the scales
+    refused = {"velocity must be at least 1e-60 .*1e-300": {"velocity": 1e-300}, "time_scale": {"velocity": 1e40}}
+    refused |= {r"section_height must not exceed 1e\+60 .*1e\+61": {"section_height": 1e61}}  # in none of the scales
     for message, value in refused.items():
         with pytest.raises(ValueError, match=message):
             Impact(**THESIS | value)

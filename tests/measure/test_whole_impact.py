@@ -139,11 +139,14 @@ def test_hits_are_contacts_whose_gaps_are_shorter_than_a_period_of_the_first_mod
         assert hit.impulse == pytest.approx(2.0 * (before - after))  # mass 2
 
 
-def recorded(time, impulse, *, gap=0.0, velocity=0.0, **other) -> ImpactHistory:
-    """A beam that the wall gives these impulses, and that keeps its energy: half of it, unless told otherwise."""
+def recorded(time, impulse, *, gap=0.0, velocity=0.0, moment=None, **other) -> ImpactHistory:
+    """A beam that the wall gives these impulses, and that keeps its energy: half of it, unless told otherwise.
+    moment : the largest, in the middle."""
     still, one = 0.0 * impulse, np.ones(time.size)
     known = {"x": np.linspace(0.0, 1.0, 5), "impact": Impact.whole_beam(2.0), "gap": still + gap, "slope": still}
     known |= {"velocity": still + velocity, "impulse": impulse, "total_impulse": 2.0 * impulse.sum(axis=1)}
+    if moment is not None:
+        known |= {"largest_moment": moment, "largest_midspan_moment": moment, "largest_moment_place": 0.0 * time}
     return history_of(time, **(known | {"kinetic_energy": one, "strain_energy": 0.0 * one} | other))
 
 
@@ -185,10 +188,8 @@ def test_a_push_on_one_point_of_a_sheared_beam_spreads_over_less_than_an_element
     push, beside = 1.6 * changed.pop("velocity", 1.0), changed.pop("beside", 0.0)
     beam = Impact(2.0, 1.0, 2.0, 0.5, 1.0, shear_stiffness=400.0, wall_curvature=-0.5).replace(**changed)
     time, x = np.linspace(0.0, 1.0, 101), np.array([0.0, element, 0.5, 0.7, 1.0])
-    moments = {"largest_moment": np.where(np.arange(101) == 50, moment, 0.1), "largest_moment_place": 0.0 * time}
-    moments["largest_midspan_moment"] = moments["largest_moment"]
-    shares = np.array([1.0 - beside, beside, 0.0, 0.0, 0.0])
-    run = recorded(time, push * time[:, None] * shares, x=x, impact=beam, **moments)
+    moments, shares = np.where(np.arange(101) == 50, moment, 0.1), np.array([1.0 - beside, beside, 0.0, 0.0, 0.0])
+    run = recorded(time, push * time[:, None] * shares, x=x, impact=beam, moment=moments)
     assert peak_moment(run)[::4] == (moment, pytest.approx(spread))
 
 
@@ -201,19 +202,16 @@ def test_a_moment_counts_once_a_wave_has_passed_ten_of_the_shortest_elements() -
     for peak, high, damping, counts in [*cases, (5e-5, 3.0, 3e-5, False)]:  # no more than V₀√(EIμ)
         impact = Impact.whole_beam(2.0, relative_damping=damping)
         moment = np.where(np.abs(time - peak) < 1e-4, high, 0.4)
-        moments = {"largest_moment": moment, "largest_moment_place": 0.0 * time, "largest_midspan_moment": moment}
-        found = whole_impact(recorded(time, impulse, x=x, impact=impact, **moments))
+        found = whole_impact(recorded(time, impulse, x=x, impact=impact, moment=moment))
         assert found.peak_moment == pytest.approx(high if counts else 0.4)
         assert found.moment_left_out == pytest.approx(min(high, 1.0) if damping and not counts else 0.0)
     # of coarse elements 2·10⁻³ T* at most is left out, and 2 % of what is looked at
     rough = {"x": np.array([0.0, 0.3, 0.6, 0.8, 1.0]), "impact": Impact.whole_beam(2.0)}
     for peak, until, counts in [(1.5e-3, None, False), (2.5e-3, None, True), (1.5e-3, 0.06, True)]:
         moment = np.where(np.abs(time - peak) < 5e-5, 0.7, 0.4)
-        moments = {"largest_moment": moment, "largest_moment_place": 0.0 * time, "largest_midspan_moment": moment}
-        assert peak_moment(recorded(time, impulse, **rough, **moments), until).moment == (0.7 if counts else 0.4)
+        assert peak_moment(recorded(time, impulse, moment=moment, **rough), until).moment == (0.7 if counts else 0.4)
     few, moment = [0, 2000, 4000], np.array([0.0, 0.9, 0.4])  # saved: the first of them hides no maximum
-    moments = {"largest_moment": moment, "largest_moment_place": 0.0 * moment, "largest_midspan_moment": moment}
-    assert peak_moment(recorded(time[few], impulse[few], x=x, impact=impact, **moments)).moment == 0.9
+    assert peak_moment(recorded(time[few], impulse[few], x=x, impact=impact, moment=moment)).moment == 0.9
 
 
 def test_breaks_shorter_than_the_shortest_separation_are_none() -> None:
