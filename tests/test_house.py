@@ -106,17 +106,12 @@ def test_no_path_is_compared_by_name_above_the_paths():
         if FLOOR[room(module)] < 3 or module.startswith(ADAPTERS):
             continue
         for node in ast.walk(tree):
-            asked = []
-            if isinstance(node, ast.Compare):
-                asked = [node.left, *node.comparators]
-            elif isinstance(node, ast.match_case):
-                asked = [node.pattern]
-            elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "isinstance":
+            if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "isinstance":
                 wrong += [f"{module}:{node.lineno}" for n in ast.walk(node.args[1]) if getattr(n, "id", "") in METHODS]
-            for part in asked:
-                names = {n.value for n in ast.walk(part) if isinstance(n, ast.Constant) and isinstance(n.value, str)}
-                if names & NAMES_OF_PATHS:
-                    wrong.append(f"{module}:{node.lineno}: {ast.unparse(node)}")
+            elif isinstance(node, ast.Compare | ast.match_case):
+                part = node if isinstance(node, ast.Compare) else node.pattern
+                names = {n.value for n in ast.walk(part) if isinstance(n, ast.Constant)}
+                wrong += [f"{module}: {ast.unparse(part)}"] if names & NAMES_OF_PATHS else []
     assert not wrong
 
 

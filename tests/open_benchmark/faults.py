@@ -36,9 +36,6 @@ def springs(rng: Rng, **fault: Any) -> Fields:
     return run(rng, spring=10.0 ** rng.uniform(2.7, 3.5), **fault)
 
 
-# --- of the books: what is handed in instead -------------------------------------------------------------------------
-
-
 def booked(change: Callable[[Rng, Fields], Fields]) -> Callable[[Rng], Fields]:
     """Of a sound run, with the fields that ``change`` makes of it."""
 

@@ -28,7 +28,7 @@ from hermite_fe.integrators import (
     NonsmoothGeneralizedAlpha,
     SignoriniPosition,
 )
-from hermite_fe.run import Trajectory, integrate
+from hermite_fe.run import integrate
 from hermite_fe.system import ContactRows, System
 
 Array = NDArray[np.float64]
@@ -58,22 +58,23 @@ def _judged(name: str, time: Array, impulse: Array, energy: Array) -> Found:
     return float(np.mean(np.abs(impulse - expected)) / np.abs(expected).max()), float(energy[-1] / energy[0])
 
 
-def _of_system(name: str, run: Trajectory, floor: float = 0.0) -> Found:
-    """floor : energy at the start beside the kinetic and the strain energy."""
+def _run(name: str, integrator: Integrator, system: System, start: Array, velocity: Array, instants: int) -> Found:
+    """A rung with its restitution, saved at so many instants."""
+    _, given, end = LADDER[name]
+    law, save = ContactLaw(given.get("restitution", 0.0)), np.linspace(0.0, end, instants)
+    run = integrate(system, start, velocity, integrator, end, law=law, save=save)
     if run.failure:
         raise ValueError(run.failure)
     energy = run.sums["kinetic_energy"] + run.sums["strain_energy"] - run.sums["work_of_loads"]
-    return _judged(name, run.time, run.impulse.sum(axis=1), energy + floor)
+    held = given["mass"] * given["gravity"] * given["height"] if name == "ball" else 0.0  # at the start, beside these
+    return _judged(name, run.time, run.impulse.sum(axis=1), energy + held)
 
 
 def _ball(scheme: Scheme, refine: int) -> Found:
     """A unit mass dropped from ½ under unit gravity with restitution 1: ten impacts by t = 20."""
-    _, given, end = LADDER["ball"]
     system = System(mass=[[1.0]], stiffness=[[0.0]], load=[[-1.0]], contacts=ContactRows([[0]], [[1.0]], [0.0]))
-    start, step = np.array([given["height"]]), 0.0137 / refine  # steps that do not divide the flights
-    law, save = ContactLaw(given["restitution"]), np.linspace(0.0, end, 1001)
-    run = integrate(system, start, np.zeros(1), scheme(step), end, law=law, save=save)
-    return _of_system("ball", run, given["height"])
+    start, step = np.array([LADDER["ball"].given["height"]]), 0.0137 / refine  # steps that do not divide the flights
+    return _run("ball", scheme(step), system, start, np.zeros(1), 1001)
 
 
 def _line(refine: int) -> tuple[Array, Array, Array]:
@@ -89,24 +90,19 @@ def _line(refine: int) -> tuple[Array, Array, Array]:
 
 def _bar(scheme: Scheme, refine: int) -> Found:
     """A bar that flies at the wall, in contact for 2L/c, off again as it came."""
-    _, given, end = LADDER["bar"]
-    x, mass, stiffness = _line(refine)
+    given, (x, mass, stiffness) = LADDER["bar"].given, _line(refine)
     system = System(mass=mass, stiffness=stiffness, contacts=ContactRows([[0]], [[1.0]], [given["gap"]]))
-    save = np.linspace(0.0, end, 601)
-    run = integrate(system, 0.0 * x, 0.0 * x - given["velocity"], scheme(COURANT * x[1]), end, save=save)
-    return _of_system("bar", run)
+    return _run("bar", scheme(COURANT * x[1]), system, 0.0 * x, 0.0 * x - given["velocity"], 601)
 
 
 def _string(scheme: Scheme, refine: int) -> Found:
     """A string that lands all at once, elastically, four times."""
-    _, given, end = LADDER["string"]
     x, mass, stiffness = _line(refine)
     inner = np.arange(1, x.size - 1)[:, None]
     contacts = ContactRows(inner, np.ones(inner.shape), np.zeros(inner.size))
     system = System(mass=mass, stiffness=stiffness, contacts=contacts, supports=(0, x.size - 1))
-    start, save = 4.0 * given["height"] * x * (1.0 - x), np.linspace(0.0, end, 801)
-    run = integrate(system, start, 0.0 * x, scheme(COURANT * x[1]), end, law=ContactLaw(1.0), save=save)
-    return _of_system("string", run)
+    start = 4.0 * LADDER["string"].given["height"] * x * (1.0 - x)
+    return _run("string", scheme(COURANT * x[1]), system, start, 0.0 * x, 801)
 
 
 def _stopped_beam(scheme: Scheme, refine: int) -> Found:

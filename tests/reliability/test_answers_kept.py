@@ -61,9 +61,6 @@ def test_a_full_disk_under_out_costs_the_files_and_no_answer(monkeypatch):
     assert code == 2 and len(json.loads(out)["rows"]) == 1 and "No space left" in err
 
 
-# --- streams, signals and names ----------------------------------------------------------------------------------
-
-
 def test_a_terminal_without_greek_letters_gets_the_answer(monkeypatch):
     stream = io.BytesIO()
     monkeypatch.setattr(sys, "stdout", io.TextIOWrapper(stream, "ascii"))

@@ -98,9 +98,6 @@ def test_runs_that_fail_are_reported_with_how_to_ask_again_and_the_rest_goes_on(
         assert str(ratio) in err and failure["reason"] in err
 
 
-# --- files ----------------------------------------------------------------
-
-
 def test_a_flipped_or_cut_file_is_never_read_as_good(tmp_path):
     store, asked, answer = RunStore(tmp_path), {"question": 1}, {"numbers": [1.5, 2.25, -3e-7], "words": ["a", "b"]}
     assert store.answer(asked, lambda: answer) == answer

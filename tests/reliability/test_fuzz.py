@@ -54,9 +54,6 @@ def answer(*arguments):
     return None
 
 
-# --- what is thrown at it ----------------------------------------------------------------------------------------
-
-
 def decades(first, last):
     return st.floats(first, last).map(lambda power: 10.0**power)
 
@@ -111,8 +108,6 @@ def case_file(content):
     return file
 
 
-# --- predict and theory: fast, so most inputs go here ------------------------------------------------------------
-
 rubbish = st.binary(max_size=300) | st.text(max_size=300) | st.text('[]{}="\n.0123456789einfabmx #', max_size=200)
 
 
@@ -145,8 +140,7 @@ def test_command_lines_of_rubbish_are_refused(name, arguments):
         json.loads(out, parse_constant=called.finite)
 
 
-# --- simulations, small enough by hand to finish, or absurd --------------------------------------------------------
-
+# simulations, small enough by hand to finish, or absurd
 numbers = st.one_of(decades(-6.0, 1.0), st.sampled_from([0.0, -1.0, 1e-300, 1e300, 1e30]), anything)
 loads = st.one_of(st.just(0.0), st.floats(-10.0, 10.0))
 few_or_absurd = st.one_of(st.integers(3, 40), st.sampled_from([1, 10**7, 10**300]))

@@ -180,8 +180,6 @@ def test_a_pipe_that_nobody_writes_into_is_not_waited_for(tmp_path):
     assert "no regular file" in refusal(tmp_path / "pipe.nc")
 
 
-# --- case files ------------------------------------------------------------
-
 UNREADABLE = {
     "binary": os.urandom(4096),
     "large": b"# " + b"x" * 10_000_000,
@@ -215,8 +213,6 @@ def test_tables_nested_without_end_are_refused_in_one_line(table, tmp_path):
         (tmp_path / name).write_text(text)
         refused(*words, tmp_path / name)
 
-
-# --- texts -----------------------------------------------------------------
 
 EVIL = "\x1b]0;x\x07\x9b31m\u202e<script>alert(1)<|script>"
 OUT = [("predict {evil}.toml", 2), ("score {evil}.npz --json", 2), ("new {evil}/x.toml", 0)]
