@@ -195,7 +195,7 @@ def test_unreadable_case_files_are_refused(kind, tmp_path):
         file.mkdir()
     elif kind != "missing":
         file.write_bytes(UNREADABLE[kind])
-    assert "case" in refused("predict", file, "--json")
+    assert "error: case file" in refused("predict", file, "--json")
 
 
 TABLES = "beam mesh section impact run hermite nonsense".split()
