@@ -7,7 +7,6 @@ from functools import cache
 import numpy as np
 import pytest
 from histories import history_of
-from twins import EXACT, agree, retold
 
 from bent_beam import Impact, ImpactHistory
 from bent_beam.measure.estimators import (
@@ -53,9 +52,7 @@ def synthetic(kappa, first=(0.0, 0.0, 0.0), epsilon=0.0, noise=0.0, seed=0):
         share[0] /= 2
         pressed = (x <= front[:, None]) * share
         np.add.at(gained, (saved, cell), pressure * step * (front - pressed.sum(axis=1)))
-        gained[: saved[-1] + 1] += pressure * np.add.reduceat(
-            pressed * step[:, None], np.searchsorted(saved, np.arange(saved[-1] + 1))
-        )
+        np.add.at(gained, saved, pressure * step[:, None] * pressed)
     impulse = gained[:times].cumsum(axis=0)
     kick = noise * impulse[-1].sum() * np.random.default_rng(seed).standard_normal((times, 1)) / nodes
     impulse = impulse + kick * (x <= 0.5 * x[-1])
@@ -180,12 +177,10 @@ def test_a_uniform_reaction_is_taken_out_where_something_presses_the_zone():
     assert moments(with_impact(pressed, stretched)).pressure[-50:] == pytest.approx(0.1, rel=0.05)
 
 
-def test_a_pressed_and_lifted_zone_is_the_same_in_other_units():
-    """Off the wall by a tenth of its place and of the time: at nine tenths of the front by 0.09 λ_c."""
+def test_a_zone_is_lifted_by_the_largest_gap_within_nine_tenths_of_its_front():
+    """Off the wall by a tenth of its place and of the time."""
     run = synthetic(0.5, (1.0, 0.5, 0.0), 0.1).dataset
-    one = ImpactHistory.of(run.assign(gap=0.1 * run["time"] * run["x"]))
-    found = moments(one)
-    agree(found, moments(retold(one, EXACT)))
+    found = moments(ImpactHistory.of(run.assign(gap=0.1 * run["time"] * run["x"])))
     assert found.lift[-1] == pytest.approx(0.09 * found.front[-1], rel=0.02)
 
 

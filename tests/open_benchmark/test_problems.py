@@ -97,12 +97,8 @@ def test_loads_in_the_file_are_the_scaled_groups_and_a_base_is_one_however_its_n
 
 
 def test_the_resting_zone_carries_what_statics_says():
-    loads = {
-        "first-0.5--1--1-0.5": 0.0,  # the middle lifts off
-        "first-0.4--0.4-0-0-1": 0.0,  # tension in free flight: α = −κN
-        "first-0.4-0-0-0-1": 0.4,
-        "first-0.4-1-2-0": 3.0,
-    }
+    """Nothing where the middle lifts off, and under tension in free flight: α = −κN."""
+    loads = {"first-0.5--1--1-0.5": 0.0, "first-0.4--0.4-0-0-1": 0.0, "first-0.4-0-0-0-1": 0.4, "first-0.4-1-2-0": 3.0}
     for name, load in loads.items():
         assert problem(name).uniform_load == pytest.approx(load * problem(name).epsilon), name
 

@@ -80,12 +80,9 @@ def test_page_is_the_theory_on_random_beams() -> None:
             unknown += row.peak_moment is None
             root = math.sqrt(impact.wave_constant * row.time)
             momentum = impact.mass_per_length * impact.velocity * root
-            for name, value, unit in (
-                ("halfLength", row.half_contact_length, root),
-                ("force", row.reaction, momentum / row.time),
-                ("impulse", row.impulse, momentum),
-                ("moment", row.peak_moment, 0.0),
-            ):
+            units = {"halfLength": root, "force": momentum / row.time, "impulse": momentum, "moment": 0.0}
+            values = (row.half_contact_length, row.reaction, row.impulse, row.peak_moment)
+            for (name, unit), value in zip(units.items(), values):
                 assert value is None or at[name] == pytest.approx(value, rel=1e-6, abs=1e-6 * unit), name
                 compared += value is not None
     assert {"shear", "wall", "damping", "waves back from the ends", "slope", "first-order correction"} <= causes

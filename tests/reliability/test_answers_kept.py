@@ -25,11 +25,7 @@ from comparison.store import RunStore, code_of, source_of
 from hermite_fe import HermiteFE
 from hermite_fe.contacts import NodeContact
 
-NO_METHODS = {
-    "exits when loaded": lambda: sys.exit("bye"),
-    "is no dataclass": lambda: SimpleNamespace,
-    "has no label": lambda: Unlabelled,
-}
+NO_METHODS = [lambda: sys.exit("bye"), lambda: SimpleNamespace, lambda: Unlabelled]
 MATCH = ("match", "--path", "theirs", "--kappa-over-nu", "2")
 
 
@@ -37,7 +33,7 @@ def install(monkeypatch, load):
     monkeypatch.setattr(methods, "_found", lambda: {"theirs": SimpleNamespace(load=load)})
 
 
-@pytest.mark.parametrize("load", NO_METHODS.values(), ids=NO_METHODS)
+@pytest.mark.parametrize("load", NO_METHODS, ids=["exits when loaded", "is no dataclass", "has no label"])
 def test_what_is_no_method_is_refused_by_name_and_ends_no_other_command(load, monkeypatch):
     install(monkeypatch, load)
     assert "'theirs' is installed but" in refused(*MATCH)
