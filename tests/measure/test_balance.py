@@ -9,7 +9,7 @@ from histories import history_of
 
 from bent_beam import Impact, ImpactHistory
 from bent_beam.measure.balance import balance_of
-from bent_beam.measure.limits import LIMITS, limited_as
+from bent_beam.measure.limits import limited_as
 from bent_beam.measure.reduction import peak_moment
 from bent_beam.meshes import UniformMesh
 from exudyn_models import ExudynModel
@@ -171,12 +171,6 @@ def test_a_beam_that_shears_may_be_deeper_in_the_wall(depth, pull, bends, shears
         limits = limited_as(SimpleNamespace(path="hermite", settings={}, impact=impact))
         warnings = replace(found, path=limits, initial_energy=None).warnings
         assert len(warnings) == len(said) and all(part in line for part, line in zip(said, warnings))
-
-
-def test_no_limit_of_a_beam_that_shears_or_of_segments_is_narrower() -> None:
-    for path in ("hermite", "self_similar", "exudyn", "exudyn, axial force", "exudyn, explicit or ρ∞ > ½"):
-        for what in ("shear", "segments"):
-            assert all(LIMITS[f"{path}, {what}"][name] >= limit for name, limit in LIMITS[path].items())
 
 
 def test_missing_energy_is_a_share_of_what_there_was_and_of_the_work_of_loads() -> None:

@@ -37,9 +37,7 @@ def test_a_middle_that_lifts_off_does_not_shorten_the_contact_and_a_late_push_al
     jumps = [jump_of_rim(small, k) for k in range(80, 100)]
     assert set(np.round(jumps, 9)) == {0.0, 0.004}  # where the median of the rims may be either
     for near, jump in ((0.776, 0.024), (0.786, 0.0)):  # 3 % of itself; 1.8 %, where one ~ √t moves on by 0.5 %
-        close = history_of(
-            time, np.array([0.0, 0.1, 0.2, 0.3, near, 0.79, 0.793, 0.796, 0.8, 0.9, 1.0]), impulse=impulse
-        )
+        close = history_of(time, [0.0, 0.1, 0.2, 0.3, near, 0.79, 0.793, 0.796, 0.8, 0.9, 1.0], impulse=impulse)
         assert max(jump_of_rim(close, k) for k in range(80, 100)) == pytest.approx(jump)
     assert mean_reaction(history, 0.0) is None
     assert mean_reaction(history, history.time[100]) is None  # no tenth after the end

@@ -1,8 +1,5 @@
-"""Faults in a code that is not ours: none is called clean, no wrong cause is named, and the right symptom comes first.
-What is put together from published answers is not clean, either, and does not stand among the runs.
-
-Faults are drawn anew in each run; the seed is printed, and BENTBEAM_SEED repeats it.
-"""
+"""Faults in a code that is not ours, drawn anew in each run from a seed that is printed (BENTBEAM_SEED repeats it), and
+what is put together from published answers: none is called clean, and the right symptom comes first."""
 
 import os
 import secrets

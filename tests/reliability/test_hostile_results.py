@@ -76,11 +76,8 @@ HOSTILE = {
     "writing turned round": pair(record=WORDS | {"metadata": {"tool": "\u202egnp.exe"}}),
     "a field that is markup": pair(record=WORDS | {"<script>alert(1)</script>": 1}),
     "announced terabytes of values": archive({"J": [header((10**12,))]}),
-    "dimensions beyond any machine": archive({"J": [header((2**62, 2**62))]}),
     "objects": archive({"J": [header((400,), "|O"), b"cos\nsystem\n(S'true'\ntR."]}),
-    "a header that is code": archive({"J": [b"\x93NUMPY\x01\x00\x20\x00__import__('os').system('true')   \n"]}),
     "thousands of entries": archive({f"{number:064d}": [] for number in range(5000)}),
-    "a path for a name": archive({"../../evil": [header((1,))]}),
     "an escape for a name": archive({"\x1b[31m": [header((1,))]}),
 }
 if FUZZ:  # large

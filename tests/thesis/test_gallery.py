@@ -65,9 +65,7 @@ def test_every_figure_and_table_is_listed_in_the_order_of_the_thesis_and_in_the_
     assert printed | {"table-numbers", *(f"extra-{name}" for name in OTHERS.split())} == set(ITEMS)
     assert [e["id"] for e in listing()] == sorted(ITEMS, key=order)
     guide = (ROOT / "docs/gallery.md").read_text()
-    for entry in listing():
-        assert f"| {entry['id']} | {entry['title']} |" in guide
-        assert entry["caption"].endswith((".", ")"))
+    assert all(f"| {entry['id']} | {entry['title']} |" in guide for entry in listing())
 
 
 def test_pictures_and_data_are_written_and_again_when_a_file_is_missing_or_sources_or_caption_changed(
