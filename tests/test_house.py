@@ -23,8 +23,7 @@ NAMES_OF_PATHS = {"hermite", "self_similar", "exudyn"}
 METHODS = {"HermiteFE", "SelfSimilarFE", "ExudynModel"}
 ADAPTERS = "bent_beam_programs.open_benchmark.adapters"  # each runs in an environment of its own
 LEAN = {
-    *("numpy", "scipy", "xarray", "pandas", "matplotlib", "numba", "exudyn", "h5py", "jinja2", "dask"),
-    *("h5netcdf", "multiprocessing", "asyncio", "PIL"),
+    *"numpy scipy xarray pandas matplotlib numba exudyn h5py h5netcdf jinja2 dask multiprocessing asyncio PIL".split()
 }
 
 

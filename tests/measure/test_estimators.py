@@ -9,15 +9,8 @@ import pytest
 from histories import history_of
 
 from bent_beam import Impact, ImpactHistory
-from bent_beam.measure.estimators import (
-    HITS_FIRST,
-    INSIDE,
-    LEAST_LEADING,
-    MISSING_FIRST,
-    SIDE,
-    first_order,
-    leading_order,
-)
+from bent_beam.measure import estimators
+from bent_beam.measure.estimators import SIDE, first_order, leading_order
 from bent_beam.measure.moments import Moments, first_front, local_front, moments, one_side
 from bent_beam.measure.numbers import FACTOR, Number
 from comparison.compare import compare_histories
@@ -86,9 +79,13 @@ def test_a_zone_thrown_off_the_wall_may_have_been_pushed_that_much_too_hard(lift
     found = leading_order(reduced, companions=[reduced])
     assert found.lift == lift
     assert found.r0.parts["lift"] == pytest.approx(min(lift / 0.1, 1.0) * lift * found.r0.value, rel=6e-3)
-    assert found.lambda0.parts["lift"] == pytest.approx(INSIDE * min(lift / 0.1, 1.0) * lift * found.lambda0.value)
+    assert found.lambda0.parts["lift"] == pytest.approx(
+        estimators.INSIDE * min(lift / 0.1, 1.0) * lift * found.lambda0.value
+    )
     short = leading_order(dataclasses.replace(reduced, moment=0.05 * SIDE * tau)).lambda0
-    assert short.known < 0.06 and short.parts["least"] == pytest.approx(LEAST_LEADING * 0.1)  # of 0.1 at least
+    assert short.known < 0.06 and short.parts["least"] == pytest.approx(
+        estimators.LEAST_LEADING * 0.1
+    )  # of 0.1 at least
 
 
 def test_the_first_moment_is_that_of_where_the_pushes_were():
@@ -212,7 +209,8 @@ def test_a_zone_that_should_lift_and_does_not_widens_the_error_bars():
     assert on_springs.r1.bar > stuck.r1.bar + 0.5 * whole
     rattling = dataclasses.replace(base, pressure=base.pressure + 0.05)  # by half a load, which is not there with it
     off = first_order(lifted, rattling, leading, pressure=-1.0)
-    assert off.r1.parts["uniform_reaction"] == pytest.approx(MISSING_FIRST * HITS_FIRST * 0.5 * whole, rel=0.02)
+    missing = estimators.MISSING_FIRST * estimators.HITS_FIRST * 0.5 * whole
+    assert off.r1.parts["uniform_reaction"] == pytest.approx(missing, rel=0.02)
     assert off.uniform_reaction == free.uniform_reaction
     thrown = dataclasses.replace(leading, lift=0.03)
     for pressure, more in ((-1.0, 0.2), (1.0, 0.0)):

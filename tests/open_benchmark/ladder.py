@@ -20,14 +20,8 @@ from bent_beam_programs.open_benchmark.references import reference
 from hermite_fe import HermiteFE
 from hermite_fe.constraints import ContactLaw
 from hermite_fe.contacts import NodeContact
-from hermite_fe.integrators import (
-    GeneralizedAlphaPenalty,
-    Integrator,
-    MasslessBoundary,
-    MoreauJean,
-    NonsmoothGeneralizedAlpha,
-    SignoriniPosition,
-)
+from hermite_fe.integrators import INTEGRATORS as KINDS
+from hermite_fe.integrators import Integrator
 from hermite_fe.run import integrate
 from hermite_fe.system import ContactRows, System
 
@@ -36,14 +30,14 @@ Scheme = Callable[[float], Integrator]  # of a time step
 Found = tuple[float, float]  # error of the impulse, energy at the end over that at the start
 
 INTEGRATORS: dict[str, Scheme] = {
-    "Moreau–Jean θ = 1": partial(MoreauJean, growth=0.0, theta=1.0),
-    "Moreau–Jean θ = ½": partial(MoreauJean, growth=0.0, theta=0.5),
-    "Signorini, new position": partial(SignoriniPosition, growth=0.0, theta=1.0),
-    "nonsmooth generalised-α, ρ∞ = 0.8": partial(NonsmoothGeneralizedAlpha, growth=0.0, spectral_radius=0.8),
-    "generalised-α with penalty, ρ∞ = 0.8": lambda h: GeneralizedAlphaPenalty(
+    "Moreau–Jean θ = 1": partial(KINDS["moreau_jean"], growth=0.0, theta=1.0),
+    "Moreau–Jean θ = ½": partial(KINDS["moreau_jean"], growth=0.0, theta=0.5),
+    "Signorini, new position": partial(KINDS["signorini_position"], growth=0.0, theta=1.0),
+    "nonsmooth generalised-α, ρ∞ = 0.8": partial(KINDS["nonsmooth_generalized_alpha"], growth=0.0, spectral_radius=0.8),
+    "generalised-α with penalty, ρ∞ = 0.8": lambda h: KINDS["generalized_alpha_penalty"](
         h, 0.0, spectral_radius=0.8, stiffness=0.1 / h**2, damping=0.3 / h
     ),
-    "massless boundary": partial(MasslessBoundary, growth=0.0),
+    "massless boundary": partial(KINDS["massless_boundary"], growth=0.0),
 }
 CELLS = 50  # of bar and string at refinement 1
 COURANT = 0.437  # of their steps

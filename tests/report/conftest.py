@@ -42,4 +42,5 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> SimpleNamespace:
         asked, store = report_questions(methods, (0.5, 1.0)), RunStore(None)
         found = page.write_report(folder, methods, asked, store=store, progress=lambda *of: seen.append(of))
     file = folder / "index.html"
-    return SimpleNamespace(found=found, seen=seen, file=file, text=file.read_text(), nasty=nasty, studies=stored)
+    text = file.read_text()
+    return SimpleNamespace(found=found, seen=seen, file=file, text=text, nasty=nasty, studies=stored, asked=asked)

@@ -243,18 +243,16 @@ def test_the_command_takes_methods_and_every_row_plot_and_table_carries_the_labe
     assert "Mine, refined 0.5 times" in drawn and "Endless" in table
 
 
-def test_runs_of_unlike_lengths_are_drawn_to_the_longest_s_end_and_eight_of_one_path_can_be_told_apart() -> None:
+def test_runs_of_unlike_lengths_are_drawn_to_the_longest_s_end() -> None:
     """Where the beam is at its end is drawn of the longest alone, with the time beside it."""
     impact, x, sheet, lines = Impact.dimensionless(0.5), np.linspace(0.0, 2.0, 50), Sheet(), []
-    for k in range(8):
-        time = np.linspace(0.0, 1.0 if k == 7 else 0.1, 30)
+    for k in range(2):
+        time = np.linspace(0.0, 0.1 + 0.9 * k, 30)
         front = np.asarray(Exact(impact).front(time))
         lines.append(Outcome(str(k), impact, None, time, front, front, 0.0 * time, 0.0 * time, x, x**2, {}, "exudyn"))
     with sheet.figure(1, 2, height=3.0) as (_, axes):
         geometry(sheet, axes[0], lines)
         contact_length(sheet, axes[1], lines)
-        drawn = [line for line in axes[1].lines if line.get_marker() == "s"]
-        assert axes[1].get_xlim()[1] == pytest.approx(1.0) and len({(a.get_color(), a.get_ls()) for a in drawn}) == 8
-        assert "at 1 s" in axes[0].get_ylabel()
+        assert axes[1].get_xlim()[1] == pytest.approx(1.0) and "at 1 s" in axes[0].get_ylabel()
     series = [{name for axis, name, *_ in sheet.curves if axis is panel} for panel in axes]
-    assert series == [{"theory", "7"}, {"theory", *map(str, range(8))}]
+    assert series == [{"theory", "1"}, {"theory", "0", "1"}]
