@@ -47,17 +47,22 @@ def history_of(
     )  # fmt: skip
 
 
+def recorded(time: Any, impulse: Any, *, gap: Any = 0.0, velocity: Any = 0.0, moment: Any = None, **other: Any) -> Any:
+    """A beam that the wall gives these impulses, and that keeps its energy: half of it, unless told otherwise.
+    moment : the largest, in the middle."""
+    still, one = 0.0 * impulse, np.ones(time.size)
+    known: dict[str, Any] = {"x": np.linspace(0.0, 1.0, 5), "impact": Impact.whole_beam(2.0), "gap": still + gap}
+    known |= {"velocity": still + velocity, "impulse": impulse, "total_impulse": 2.0 * impulse.sum(axis=1)}
+    if moment is not None:
+        known |= {"largest_moment": moment, "largest_midspan_moment": moment, "largest_moment_place": 0.0 * time}
+    return history_of(time, **(known | {"slope": still, "kinetic_energy": one, "strain_energy": 0.0 * one} | other))
+
+
 def pushed_until(end: float, *, last: float = 2.0, again: float | None = None) -> ImpactHistory:
     """A rigid beam, pushed from first touch to ``end`` and as long from ``again`` on at 5.8 μℓV₀ a T*. Times in T*."""
-    time, x = np.linspace(0.0, last, round(20 * last) + 1), np.linspace(0.0, 1.0, 5)
-    impulse = np.zeros((time.size, x.size))
-    impulse[:, 0] = 2.9 * np.minimum(time, end)
+    time = np.linspace(0.0, last, round(20 * last) + 1)
+    push = 2.9 * np.minimum(time, end)
     if again is not None:
-        impulse[:, 0] += 2.9 * np.clip(time - again, 0.0, end)
-    away = np.maximum(time[:, None] - end, 0.0) * np.ones(x.size)
-    one = np.ones(time.size)
-    return history_of(
-        time, x, impact=Impact.whole_beam(2.0), gap=away, slope=0.0 * away,
-        velocity=(1.0 - impulse[:, :1]) * np.ones(5),
-        impulse=impulse, total_impulse=2.0 * impulse[:, 0], kinetic_energy=one, strain_energy=0.0 * one,
-    )  # fmt: skip
+        push += 2.9 * np.clip(time - again, 0.0, end)
+    gap, velocity = np.maximum(time - end, 0.0)[:, None], 1.0 - push[:, None]
+    return recorded(time, np.outer(push, np.eye(5)[0]), gap=gap, velocity=velocity)

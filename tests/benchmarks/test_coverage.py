@@ -1,12 +1,14 @@
 """The studies of error bars, of methods and of whole beams: they draw what they say, count what misses, and keep it."""
 
+import tomllib
+
 import numpy as np
 import pytest
 
 from benchmarks import beams
 from benchmarks.coverage import Point, coverage, draw, write_misses
 from bent_beam import Impact
-from bent_beam.cases import load_case
+from bent_beam.cases import case_from_tables
 from bent_beam.loads import loads_of
 from bent_beam.measure.numbers import Number
 from comparison.methods import methods_from_file
@@ -40,13 +42,11 @@ def test_error_bars_hold_with_94_of_100_numbers_covered_and_none_two_bars_off(mi
     assert coverage([*covered, *(row(error, 1e-3) for error in misses)]).holds == holds
 
 
-def test_every_stratum_is_what_it_is_called(tmp_path):
-    found, file = {stratum: [] for stratum in beams.STRATA}, tmp_path / "drawn.toml"
-    for stratum, drawn in found.items():
-        random = np.random.default_rng(5)
-        for _ in range(20):
-            file.write_text(beams.draw(random, stratum))
-            drawn.append(load_case(file).impact)
+def test_every_stratum_is_what_it_is_called():
+    random, found = np.random.default_rng(5), {}
+    for stratum in beams.STRATA:
+        drawn = [case_from_tables(tomllib.loads(beams.draw(random, stratum))) for _ in range(20)]
+        found[stratum] = [case.impact for case in drawn]
     assert all(one.damping for beam in found.values() for one in beam), "without damping there are bands, no bars"
     assert {one.shear_stiffness is None for one in found["rigid"]} == {False, True}
     assert all(one.wall_stiffness for one in found["wall"])

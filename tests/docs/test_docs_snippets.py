@@ -45,11 +45,8 @@ def registries() -> Iterator[None]:
 # two seconds and more of default runs, the commands and calls of README and of the tests of both paths, or of compiling
 RUNS = ("docs/guide/run.md", "docs/guide/swap.md", "docs/guide/figure.md", "docs/guide/add-integrator.md")
 QUICK = [pytest.param(page, False, id=name_of(page)) for page in PAGES if name_of(page) not in RUNS]
-LONG = [
-    pytest.param(page, True, marks=pytest.mark.verify, id=f"{name_of(page)}, all")
-    for page in PAGES
-    if name_of(page) in RUNS or any(block.is_long for block in blocks(page))
-]
+LONG = [page for page in PAGES if name_of(page) in RUNS or any(block.is_long for block in blocks(page))]
+LONG = [pytest.param(page, True, marks=pytest.mark.verify, id=f"{name_of(page)}, all") for page in LONG]
 
 
 @pytest.mark.parametrize(("page", "all_of_it"), [*QUICK, *LONG])

@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
-from histories import history_of, pushed_until
+from histories import pushed_until, recorded
 
 from bent_beam.as_json import json_text
 from bent_beam.history import ImpactHistory
@@ -139,17 +139,6 @@ def test_hits_are_contacts_whose_gaps_are_shorter_than_a_period_of_the_first_mod
         assert hit.impulse == pytest.approx(2.0 * (before - after))  # mass 2
 
 
-def recorded(time, impulse, *, gap=0.0, velocity=0.0, moment=None, **other) -> ImpactHistory:
-    """A beam that the wall gives these impulses, and that keeps its energy: half of it, unless told otherwise.
-    moment : the largest, in the middle."""
-    still, one = 0.0 * impulse, np.ones(time.size)
-    known = {"x": np.linspace(0.0, 1.0, 5), "impact": Impact.whole_beam(2.0), "gap": still + gap, "slope": still}
-    known |= {"velocity": still + velocity, "impulse": impulse, "total_impulse": 2.0 * impulse.sum(axis=1)}
-    if moment is not None:
-        known |= {"largest_moment": moment, "largest_midspan_moment": moment, "largest_moment_place": 0.0 * time}
-    return history_of(time, **(known | {"kinetic_energy": one, "strain_energy": 0.0 * one} | other))
-
-
 HEAVY = Impact(2.0, 8.0, 6.0, 2.0, 0.5)  # κ/ν = 2, ℓ = 3 m, T* = 18 s
 
 
@@ -264,8 +253,9 @@ def test_a_beam_returns_where_it_is_nearest_to_the_wall_and_as_slowly_as_it_has_
 
 def test_the_largest_push_begins_when_the_wall_begins_to_push_within_its_window() -> None:
     """A slap between two saved instants; a steady force for a hundredth of T*, or for a saved interval longer."""
-    time = np.linspace(0.0, 0.4, 401)
-    found = whole_impact(recorded(time, np.outer(time > 0.2995, np.eye(5)[0])))
+    time, x = np.linspace(0.0, 0.4, 401), np.linspace(0.0, 3.0, 5)
+    slap = np.outer(time > 0.2995, 12.0 * np.eye(5)[0])  # half of the beam's momentum, N s
+    found = whole_impact(recorded(18.0 * time, slap, x=x, impact=HEAVY))
     assert found.push == pytest.approx(2.0) and found.push_time == pytest.approx(0.299)
     steady = whole_impact(pushed_until(0.3))
     assert steady.push - steady.push_rise == pytest.approx(0.01 * 5.8)
