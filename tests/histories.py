@@ -31,9 +31,7 @@ def rod(folder: Path, *tables: str, element: float) -> Path:
     return file
 
 
-def history_of(
-    time: Any, x: Any, *, impact: Impact | None = None, symmetry: str = "half", **fields: Any
-) -> ImpactHistory:
+def history_of(time: Any, x: Any, *, impact: Any = None, symmetry: str = "half", **fields: Any) -> ImpactHistory:
     """A history with ``fields`` by name, of shape (times,), (times, nodes) or, for impulses, (times, contacts); what a
     history must have besides is zero. Contacts are the nodes."""
     time, x = np.asarray(time, float), np.asarray(x, float)

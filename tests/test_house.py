@@ -12,12 +12,8 @@ from here import ROOT
 
 PATHS = ("theory", "hermite_fe", "self_similar_fe", "exudyn_models")
 PROGRAMS = ("thesis", "report", "predictor", "open_benchmark")
-FLOOR = {
-    **{"bent_beam": 0, "bent_beam.measure": 1},
-    **dict.fromkeys(PATHS, 2),
-    "comparison": 3,
-    **{"bent_beam_programs": 4, "benchmarks": 4, **{f"bent_beam_programs.{name}": 4 for name in PROGRAMS}},
-}
+FLOOR = {"bent_beam": 0, "bent_beam.measure": 1, **dict.fromkeys(PATHS, 2), "comparison": 3, "benchmarks": 4}
+FLOOR |= {"bent_beam_programs": 4, **{f"bent_beam_programs.{name}": 4 for name in PROGRAMS}}
 PACKAGES = {room.partition(".")[0] for room in FLOOR}
 NAMES_OF_PATHS = {"hermite", "self_similar", "exudyn"}
 METHODS = {"HermiteFE", "SelfSimilarFE", "ExudynModel"}

@@ -103,11 +103,9 @@ def test_a_string_sounds_as_a_string_and_bends_over_the_length_of_its_ends_alone
 
 
 def test_an_amplitude_at_another_frequency_than_its_own_is_refused_where_a_beam_swings_up_to_its_wall() -> None:
-    tables = {
-        "beam": {"length": 1.0, "curvature": 0.0, "bending_stiffness": 1.0, "mass_per_length": 1.0, "ends": "hinged"},
-        "wall": {"stiffness": 1e3, "clearance": 1e-3},
-        "impact": {"amplitude": 2e-3, "frequency": 1.09 * math.pi / 2.0},
-    }
+    beam = {"length": 1.0, "curvature": 0.0, "bending_stiffness": 1.0, "mass_per_length": 1.0, "ends": "hinged"}
+    impact = {"amplitude": 2e-3, "frequency": 1.09 * math.pi / 2.0}
+    tables = {"beam": beam, "wall": {"stiffness": 1e3, "clearance": 1e-3}, "impact": impact}
     assert case_from_tables(tables).impact.velocity == pytest.approx(1.09 * math.pi**2 * 2e-3)
     tables["impact"]["frequency"] = frequency = 1.11 * math.pi / 2.0
     with pytest.raises(InputError, match=r"impact.frequency = 1.74.* is not the beam's own, 1.571 Hz: .* 1.11 times"):

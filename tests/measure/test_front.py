@@ -140,9 +140,8 @@ def test_the_largest_moment_of_the_first_instants_is_not_interpolated_from_befor
 def test_a_force_that_is_largest_at_the_end_of_a_run_acts_where_the_wall_pushed_last() -> None:
     time, x = np.linspace(0.0, 1.0, 11), np.array([0.0, 1.0])
     given = np.column_stack([np.minimum(time, 0.9), np.maximum(time - 0.9, 0.0)])  # at 1 m in the last interval alone
-    peaks = dict.fromkeys(("peak_force", "peak_force_time", "peak_penetration", "peak_pressure"), ("time", time))
-    run = history_of(time, x, impulse=given, total_impulse=given.sum(axis=1))
-    assert wall_peaks(ImpactHistory.of(run.dataset.assign(peaks).assign_attrs(steps=10))).place == 1.0
+    peaks = dict.fromkeys(("peak_force", "peak_force_time", "peak_penetration", "peak_pressure"), time)
+    assert wall_peaks(history_of(time, x, impulse=given, total_impulse=given.sum(axis=1), **peaks)).place == 1.0
 
 
 @pytest.mark.parametrize(("power", "least", "above"), [(1, 0.5, 0.75 * 0.005), (2, 1.0 - 1e-6, 0.005**2)])
@@ -153,10 +152,9 @@ def test_a_step_at_the_top_of_a_force_stands_above_those_beside_it_by_h_at_a_kin
     of the one at a kink is 1 − h/4, of those beside it 1 − h. From saved instants a kink is told to a half only."""
     time, top = np.linspace(0.0, 1.05, 22), 0.525
     given = time - np.sign(time - top) * np.abs(time - top) ** (power + 1) / (power + 1) + (time - top) ** 2 / 6.0
-    peaks = dict.fromkeys(("peak_force", "peak_penetration", "peak_pressure"), ("time", np.ones(time.size)))
-    peaks["peak_force_time"] = ("time", np.full(time.size, top))
-    run = history_of(time, [0.0, 1.0], total_impulse=given)
-    run = ImpactHistory.of(run.dataset.assign(peaks).assign_attrs(steps=210))
+    peaks = dict.fromkeys(("peak_force", "peak_penetration", "peak_pressure"), np.ones(time.size))
+    run = history_of(time, [0.0, 1.0], total_impulse=given, peak_force_time=np.full(time.size, top), **peaks)
+    run = ImpactHistory.of(run.dataset.assign_attrs(steps=210))
     found = wall_peaks(run).sharp
     assert least * above < found <= above * (1.0 + 1e-6)
     for few in (slice(8, 14), slice(7, 14), slice(8, 15)):  # the six instants about the top are enough

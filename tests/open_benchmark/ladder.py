@@ -103,11 +103,8 @@ def _stopped_beam(scheme: Scheme, refine: int) -> Found:
     """The free beam of κ/ν = 2 with its own damping, until before the wall first lets go."""
     asked = problem("stopped-beam")
     impact = Impact.dimensionless(asked.kappa_over_nu, damping=asked.damping, length=2.0)
-    method = HermiteFE(
-        mesh=UniformMesh(element_length=1.0 / (25 * refine)),
-        integrator=scheme(0.25 / 25.0**2 / refine),
-        contact=NodeContact(hold=0, hold_until=0.0),
-    )
+    mesh, contact = UniformMesh(element_length=1.0 / (25 * refine)), NodeContact(hold=0, hold_until=0.0)
+    method = HermiteFE(mesh=mesh, integrator=scheme(0.25 / 25.0**2 / refine), contact=contact)
     history = method.simulate(impact, end_time=asked.end_time, save=np.linspace(0.0, asked.end_time, 101))
     energy = history.array("kinetic_energy") + history.array("strain_energy")
     return _judged(asked.id, history.time, history.array("total_impulse"), energy)

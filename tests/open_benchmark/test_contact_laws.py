@@ -29,12 +29,9 @@ def _result(name: str, law: str, size: float) -> Result:
     names = ("acceleration", "fourth_derivative", "curvature_rate", "axial_force")
     loads = {name: asked.epsilon * value for name, value in zip(names, asked.loads) if value}
     impact = Impact.dimensionless(asked.kappa_over_nu, length=2.0 * HALF_LENGTH).replace(**loads)
-    method = HermiteFE(
-        mesh=UniformMesh(element_length=size),
-        integrator=LAWS[law](theta=1.0, time_step=asked.end_time / round(STEPS * asked.end_time / size), growth=0.0),
-        contact=NodeContact(hold=0, hold_until=0.0),
-        far_field=GridViscosity(viscosity=0.0, end="following"),
-    )
+    scheme = LAWS[law](theta=1.0, time_step=asked.end_time / round(STEPS * asked.end_time / size), growth=0.0)
+    contact, far_field = NodeContact(hold=0, hold_until=0.0), GridViscosity(viscosity=0.0, end="following")
+    method = HermiteFE(mesh=UniformMesh(size), integrator=scheme, contact=contact, far_field=far_field)
     return result_from_history(method.simulate(impact, end_time=asked.end_time, save=600), asked)
 
 

@@ -175,12 +175,8 @@ def test_a_crafted_history_is_not_run_again(name, history):
     assert "\n" not in str(caught.value)
 
 
-UNREADABLE = {
-    "binary": os.urandom(4096),
-    "large": b"# " + b"x" * 10_000_000,
-    "deep": b"a = " + b"[" * 100_000,
-    "long number": b"a = " + b"9" * 10_000,
-}
+UNREADABLE = {"binary": os.urandom(4096), "large": b"# " + b"x" * 10_000_000}
+UNREADABLE |= {"deep": b"a = " + b"[" * 100_000, "long number": b"a = " + b"9" * 10_000}
 
 
 @pytest.mark.parametrize("kind", ["missing", "folder", *UNREADABLE])
