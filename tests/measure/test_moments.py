@@ -26,9 +26,7 @@ def test_the_moment_of_a_cubic_is_exact_and_the_peak_is_where_it_is_largest(with
     assert np.all(place == np.stack([x[:-1], x[1:]], axis=1))
     assert history.moment == pytest.approx(np.abs(exact).max(axis=1), rel=1e-12)
     peak = peak_moment(history)
-    assert peak.time == 2.0
-    if with_slope:
-        assert peak.place == 2.0
+    assert peak.time == 2.0 and (peak.place == 2.0 or not with_slope)
     assert peak_moment(history, until=1.0).moment == pytest.approx(exact[1, -1], rel=1e-12)
     assert peak.moment == pytest.approx(exact[2, -1], rel=1e-12)
     assert peak.midspan == pytest.approx(exact[2, 0], rel=1e-12)

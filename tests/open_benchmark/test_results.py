@@ -49,9 +49,8 @@ def test_a_result_that_is_written_as_csv_scores_the_same_bits(tmp_path):
     assert score(first).to_dict() == score(load_result(tmp_path / "run.csv")).to_dict()
 
 
-@pytest.mark.parametrize(
-    ("changes", "words"),
-    [
+def test_a_malformed_result_gets_one_line_naming_the_field(tmp_path):
+    for changes, words in (
         ({"J": None}, "J is missing"),
         ({"outcome": "finished"}, "outcome must be one of"),
         ({"problem": "leading-x"}, "problem: 'leading-x' is not the id"),
@@ -69,27 +68,22 @@ def test_a_result_that_is_written_as_csv_scores_the_same_bits(tmp_path):
         ({"x": np.zeros(3), "snap_tau": np.zeros(2), "snap_gap": np.zeros((3, 2))}, "must have shape (2, points)"),
         ({"x": np.zeros(3), "snap_tau": np.zeros(0), "snap_gap": np.zeros((2, 3))}, "must have shape (0, points)"),
         ({"x": np.zeros(3), "snap_tau": np.zeros(2), "snap_gap": np.zeros((0, 3))}, "snap_gap is empty"),
-    ],
-)
-def test_a_malformed_result_gets_one_line_naming_the_field(tmp_path, changes, words):
-    assert words in refusal(written(tmp_path, **changes))
+    ):
+        assert words in refusal(written(tmp_path, **changes))
 
 
-@pytest.mark.parametrize(
-    ("table", "about", "words"),
-    [
-        ("tau,J,Jm\n0,zero,0\n", "{}", "run.csv, line 2: J is not a number (got 'zero')"),
-        ("this is a letter\n", "{}", "run.csv: 'this is a letter' is not a column"),
-        ("tau,J,Jm\n0,0\n", "{}", "run.csv, line 2: 2 values for 3 columns"),
+def test_a_malformed_table_gets_one_line_naming_the_file_once_and_the_field(tmp_path):
+    for table, about, words in (
+        (b"tau,J,Jm\n0,zero,0\n", "{}", "run.csv, line 2: J is not a number (got 'zero')"),
+        (b"this is a letter\n", "{}", "run.csv: 'this is a letter' is not a column"),
+        (b"tau,J,Jm\n0,0\n", "{}", "run.csv, line 2: 2 values for 3 columns"),
         (b"tau,J,Jm\n\xff", "{}", "run.csv is not UTF-8 text"),
-        ("tau,J,Jm\n", '{"J": [1, 2]}', "run.json: 'J' is not a field of a result"),
-        ("tau,J,Jm\n", STARTED + "{}}", "tau is empty"),
-    ],
-)
-def test_a_malformed_table_gets_one_line_naming_the_file_once_and_the_field(tmp_path, table, about, words):
-    (tmp_path / "run.csv").write_bytes(table if isinstance(table, bytes) else table.encode())
-    (tmp_path / "run.json").write_text(about)
-    assert words in refusal(tmp_path / "run.csv")
+        (b"tau,J,Jm\n", '{"J": [1, 2]}', "run.json: 'J' is not a field of a result"),
+        (b"tau,J,Jm\n", STARTED + "{}}", "tau is empty"),
+    ):
+        (tmp_path / "run.csv").write_bytes(table)
+        (tmp_path / "run.json").write_text(about)
+        assert words in refusal(tmp_path / "run.csv")
 
 
 def test_a_result_without_numbers_is_kept_with_its_reason_and_not_scored():

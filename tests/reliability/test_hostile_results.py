@@ -120,8 +120,7 @@ def test_a_hostile_result_is_refused_in_one_line_in_little_memory_and_time(answe
     assert answers["good"][0] == "good"
     assert said != "good" and len(said) < 500 and all(c.isprintable() for c in said)
     assert seconds < SECONDS and memory < BYTES
-    if name == "thousands of entries":  # before zipfile reads all of it
-        assert "table of contents" in said
+    assert "table of contents" in said or name != "thousands of entries"  # before zipfile reads all of it
 
 
 def test_mutated_results_are_read_or_refused(tmp_path):
