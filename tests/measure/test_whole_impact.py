@@ -169,9 +169,7 @@ def test_what_springs_of_the_wall_hold_is_not_lost(again) -> None:
         ({"wall_from": 0.0, "wall_to": 0.0}, 1.2, 0.3, 0.0),  # a stop
     ],
 )
-def test_a_push_on_one_point_of_a_sheared_beam_spreads_over_less_than_an_element(
-    changed, moment, element, spread
-) -> None:
+def test_a_push_on_one_point_of_a_sheared_beam_spreads_over_less_than_an_element(changed, moment, element, spread):
     """EI = 2 N m², a push of 3.2 N, by half of the beam; a share of it ``beside`` the point, where contact is soft."""
     changed = changed.copy()
     push, beside = 1.6 * changed.pop("velocity", 1.0), changed.pop("beside", 0.0)

@@ -10,14 +10,9 @@ TAU = np.linspace(0.0, 0.1, 400)
 
 def exact_fields(kappa=0.5):
     found = contact_parameters(kappa)
-    return {
-        "outcome": "completed",
-        "problem": f"{'leading' if kappa < 1.0 else 'point'}-{kappa:g}",
-        "metadata": '{"tool": "exact"}',
-        "tau": TAU,
-        "J": 4.0 * SIDE * found.r0 * np.sqrt(TAU),
-        "Jm": SIDE * found.r0 * found.lambda0 * TAU,
-    }
+    name = f"{'leading' if kappa < 1.0 else 'point'}-{kappa:g}"
+    fields = {"outcome": "completed", "problem": name, "metadata": '{"tool": "exact"}', "tau": TAU}
+    return fields | {"J": 4.0 * SIDE * found.r0 * np.sqrt(TAU), "Jm": SIDE * found.r0 * found.lambda0 * TAU}
 
 
 def written(folder, kappa=0.5, file="result.npz", **changes):

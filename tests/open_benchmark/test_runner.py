@@ -3,6 +3,7 @@
 import os
 import sys
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -101,18 +102,15 @@ def test_one_bad_adapter_is_a_row_and_only_what_changed_is_run_again(tmp_path, m
     fine = adapter(tmp_path, "good", GOOD)
     bad = adapter(tmp_path, "bad", "raise SystemExit('cannot')")
     none = replace(fine, name="none", install=("nothing==1",), environment="not-there", module="nothing")
-
-    def run():
-        # relative to where one stands
-        return campaign([bad, none, fine], ["point-2"], Path("out"), limits=Limits(repeats=1))
-
+    adapters, out = [bad, none, fine], Path("out")  # relative to where one stands
+    run = partial(campaign, adapters, ["point-2"], out, limits=Limits(repeats=1))
     run()
     rows = run()
     assert (tmp_path / "log").read_text().split() == ["coarse"], "the second ran nothing again"
     assert [r.score.outcome for r in rows] == ["crashed", "not_installed", "completed"]
     assert rows[1].score.reason == "bentbeam benchmark --install none"
     assert rows[-1].score.error("r0") == pytest.approx(0.0, abs=1e-9)
-    page = write_page(rows, [bad, none, fine], tmp_path / "out").read_text()
+    page = write_page(rows, adapters, tmp_path / "out").read_text()
     assert page.count("<svg") == 1 and "cannot" in page and "not installed" in page
     adapter(tmp_path, "good", GOOD + "# better")
     run()

@@ -29,13 +29,9 @@ NO_METHODS = [lambda: sys.exit("bye"), lambda: SimpleNamespace, lambda: Unlabell
 MATCH = ("match", "--path", "theirs", "--kappa-over-nu", "2")
 
 
-def install(monkeypatch, load):
-    monkeypatch.setattr(methods, "_found", lambda: {"theirs": SimpleNamespace(load=load)})
-
-
 @pytest.mark.parametrize("load", NO_METHODS, ids=["exits when loaded", "is no dataclass", "has no label"])
 def test_what_is_no_method_is_refused_by_name_and_ends_no_other_command(load, monkeypatch):
-    install(monkeypatch, load)
+    monkeypatch.setattr(methods, "_found", lambda: {"theirs": SimpleNamespace(load=load)})
     assert "'theirs' is installed but" in refused(*MATCH)
     assert len(answered("settings")) > 20
 
@@ -52,7 +48,7 @@ def test_a_full_disk_under_out_costs_the_files_and_no_answer(monkeypatch):
         raise OSError(28, "No space left on device", "out/match.json")
 
     monkeypatch.setattr("comparison.figures.matching.write_match", full)
-    install(monkeypatch, lambda: Plain)
+    monkeypatch.setattr(methods, "_found", lambda: {"theirs": SimpleNamespace(load=lambda: Plain)})
     code, out, err = command(*MATCH, "--out", "out", "--json")
     assert code == 2 and len(json.loads(out)["rows"]) == 1 and "No space left" in err
 
