@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
+from processes import until
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 DRIVER = shutil.which("chromedriver")
@@ -32,14 +33,12 @@ def chromium() -> Iterator[Any]:
 
 def opened(driver: Any, address: str, width: int = 1400) -> Any:
     """The driver with the page at ``address``, all of it, on a screen or a phone."""
-    from selenium.webdriver.support.wait import WebDriverWait
-
     size = {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": width < 600}
     driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
     driver.get("about:blank")
     driver.get(address)  # on a busy machine it may come back with the blank page still there
     whole = "document.readyState == 'complete' && location.protocol != 'about:'"
-    WebDriverWait(driver, 60).until(lambda _: ask(driver, whole))
+    until(lambda: ask(driver, whole), 60.0)
     return driver
 
 

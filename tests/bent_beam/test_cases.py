@@ -11,6 +11,7 @@ from bent_beam.cases import case_from_tables, lay_over
 from bent_beam.description import GRAVITY
 from bent_beam.loads import wall_scales
 from bent_beam.meshes import GradedMesh
+from bent_beam.new_case import new_case
 from bent_beam.section import General, Pipe, Rectangle, RoundBar
 
 STEEL = {"youngs_modulus": 206e9, "density": 7850.0}
@@ -220,8 +221,6 @@ def test_every_case_file_loads_the_thesis_sweep_is_complete_and_the_other_beams_
 
 @pytest.mark.parametrize("kind", ["pipe", "round_bar", "rectangle", "general"])
 def test_a_new_case_can_be_used_once_its_damping_is_stated(kind, tmp_path):
-    from bent_beam.new_case import new_case
-
     file = tmp_path / "mine.toml"
     file.write_text(new_case(kind))
     with pytest.raises(InputError, match=r"beam\.damping_ratio .*0\.0002 bare steel, 0\.002 as held"):

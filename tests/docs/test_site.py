@@ -12,6 +12,7 @@ from typing import Any
 import pytest
 from chromium import ask, disquiet, needs_chromium, opened
 from here import ROOT
+from PIL import Image
 
 BUILDERS = ("mkdocs", "quickjax", "mkdocs_jupyter", "mkdocstrings")
 NOT_PROSE = "pre, code, .highlight, .formula, script, style, .clipboard-copy-txt, .zeroclipboard-container"
@@ -55,8 +56,6 @@ def test_every_page_keeps_to_its_width_and_to_itself_and_shows_no_markup(chromiu
 @pytest.mark.parametrize(("page", "least"), [("theory.html", 190), ("tutorial.html", 15)])
 def test_formulas_are_drawn(chromium: Any, site: Path, page: str, least: int, width: int) -> None:
     """Each has a size, and the screenshot of a formula holds its ink."""
-    from PIL import Image
-
     browser = opened(chromium, (site / page).as_uri(), width)
     sizes = ask(
         browser,

@@ -26,8 +26,7 @@ def test_score_prints_one_document_and_a_list_of_several(tmp_path):
     assert {"penetration", "momentum", "distribution"} <= document["not_told"].keys()
     assert document["r0"] == pytest.approx({"value": 1.0, "error": 0.0, "theory": 1.0}, abs=1e-3)
     assert {document[name] for name in ("lambda1", "r1")} == {None}
-    document = answered("score", *files)
-    assert [one["metadata"]["seconds"] for one in document["results"]] == [3.0, 1.0, 2.0]
+    assert [one["metadata"]["seconds"] for one in answered("score", *files)["results"]] == [3.0, 1.0, 2.0]
 
 
 def test_a_result_that_cannot_be_read_is_exit_code_2_and_no_score(tmp_path):

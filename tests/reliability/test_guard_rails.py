@@ -64,8 +64,7 @@ def test_the_budget_of_a_long_run_closes_and_its_memory_stays_flat(steps):
 
     def run(count):
         mesh, scheme = UniformMesh(10.0 / 1999), MoreauJean(time_step=0.1 / steps)
-        end = 0.1 * count / steps
-        return hermite_fe.simulate(impact, end_time=end, mesh=mesh, integrator=scheme, save=20)
+        return hermite_fe.simulate(impact, end_time=0.1 * count / steps, mesh=mesh, integrator=scheme, save=20)
 
     assert run(max(steps // 100, 10)).dataset is not None  # kernels are loaded then, and xarray is imported
     before = peak()  # MB

@@ -25,15 +25,10 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> SimpleNamespace:
     seen: list[tuple[int, int]] = []
     every[0].warnings.append(nasty)
     stored = [*stored_studies(), *stored_studies(studies(folder, nasty))]
-
-    def match(asked, *, progress, **how):
-        progress(1, len(asked))
-        return every
-
     with pytest.MonkeyPatch.context() as patch:
         patch.setitem(style.RC, "figure.constrained_layout.use", False)  # layouts take longer than the page
         patch.setattr(Figure, "draw_without_rendering", lambda figure: None)
-        patch.setattr(page, "match", match)
+        patch.setattr(page, "match", lambda asked, *, progress, **_: progress(1, len(asked)) or every)
         patch.setattr(page, "warm_up", lambda methods: None)
         patch.setattr(page, "show_all", lambda *_, **__: (list(impacts()), [nasty]))
         patch.setattr(page, "pipe_prediction", lambda store: pipe())

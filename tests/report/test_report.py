@@ -70,7 +70,6 @@ def test_page_tells_the_story_first(written: Any) -> None:
 
 def test_the_pipe_s_numbers_are_those_that_predict_prints(text: str) -> None:
     found = pipe()
-    assert found is not None
     printed = re.sub(r"\s+", " ", prediction_text(predict_case(found["case"], TIMES, store=KEPT).to_dict()))
     for _, _, cells in found["rows"]:
         assert all(cell in printed for cell in cells)
