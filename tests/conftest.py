@@ -32,6 +32,5 @@ def pytest_sessionstart(session: pytest.Session) -> None:
     """Each worker would compile every integrator for itself, at the same time as the other."""
     if hasattr(session.config, "workerinput") or not getattr(session.config.option, "numprocesses", None):
         return
-    command = [sys.executable, "-m", "tests.compile_integrators"]
-    if subprocess.run(command, cwd=Path(__file__).parents[1]).returncode:
+    if subprocess.run([sys.executable, "-m", "tests.compile_integrators"], cwd=Path(__file__).parents[1]).returncode:
         raise pytest.UsageError("the integrators could not be compiled: see above")

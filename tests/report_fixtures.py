@@ -17,8 +17,6 @@ from hermite_fe import HermiteFE
 from self_similar_fe import ExpandingMesh, SelfSimilarFE
 from theory import contact_parameters
 
-LABELS = {"hermite": "Hermite", "exudyn": "Exudyn"}
-
 
 def row(path: str, kappa: float, first: tuple[float, float, float] | None = None, off: float = 1e-4) -> MatchRow:
     """A row that is ``off`` (relative) from theory, with an error bar twice that."""
@@ -39,7 +37,7 @@ def lost(path: str, kappa: float, reason: str) -> MatchRow:
 
 def _row(path: str, kappa: float, loads: tuple[float, float, float], **told: Any) -> MatchRow:
     given = dict(zip(("alpha", "psi", "chi"), loads), axial=0.0, refine=1.0, settings={})
-    return MatchRow(label=LABELS[path], path=path, kappa_over_nu=kappa, **given, **told)
+    return MatchRow(label=path.capitalize(), path=path, kappa_over_nu=kappa, **given, **told)
 
 
 def rows() -> list[MatchRow]:

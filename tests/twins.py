@@ -28,9 +28,8 @@ EXACT = {"kg": 2.0**-30, "m": 2.0**-20, "s": 2.0**10}  # even powers of two: the
 POWERS = {"²": 2, "³": 3, "⁴": 4}
 OF_INSTANT = {"half_contact_length": "m", "element": "m", "reaction": "N", "impulse": "N s", "impulse_around": "N s"}
 OF_INSTANT |= {f"peak_{name}": unit for name, unit in zip(("force", "pressure", "penetration"), ("N", "N/m", "m"))}
-OF_INSTANT |= dict.fromkeys(("peak_moment", "moment_left_out", "moment_spread"), "N m")
-OF_INSTANT |= {"peak_moment_place": "m", "peak_moment_time": "s"}
-OF_INSTANT |= {"peak_force_time": "s", "peak_force_place": "m", "peak_force_sharp": "N"}
+OF_INSTANT |= dict.fromkeys(("peak_moment", "moment_left_out", "moment_spread"), "N m") | {"peak_force_sharp": "N"}
+OF_INSTANT |= {"peak_moment_place": "m", "peak_moment_time": "s", "peak_force_place": "m", "peak_force_time": "s"}
 OF_HIT = {"begin": "s", "end": "s", "place": "m", "impulse": "N s", "energy": "J", "lost": "J", "moment": "N m"}
 OF_HIT |= dict.fromkeys(("before", "after"), "m/s")
 

@@ -39,7 +39,6 @@ INTEGRATORS: dict[str, Scheme] = {
     ),
     "massless boundary": partial(KINDS["massless_boundary"], growth=0.0),
 }
-CELLS = 50  # of bar and string at refinement 1
 COURANT = 0.437  # of their steps
 # Where in its step an impact falls is chance: errors are means over step sizes that differ by a few per cent.
 PHASES = (1.0, 0.93, 0.87, 0.81)
@@ -71,7 +70,7 @@ def _ball(scheme: Scheme, refine: int) -> Found:
 
 def _line(refine: int) -> tuple[Array, Array, Array]:
     """Places, lumped mass and stiffness of linear elements of unit stiffness and mass in a row of length 1, banded."""
-    cells = CELLS * refine
+    cells = 50 * refine
     mass, stiffness = np.full((1, cells + 1), 1.0 / cells), np.full((2, cells + 1), -float(cells))
     stiffness[0] *= -2.0
     stiffness[1, -1] = 0.0

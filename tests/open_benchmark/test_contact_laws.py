@@ -20,7 +20,6 @@ from hermite_fe.integrators import MoreauJean, SignoriniPosition
 
 LAWS = {"velocities (Moreau–Jean)": MoreauJean, "new position": SignoriniPosition}
 PROBLEMS = ("leading-0.5", "first-0.5-1-1-1", "first-0.5--1--1-0", "first-0.5--0.5-0-0-1")
-HALF_LENGTH = 4.0  # l*
 STEPS = 160.0  # an element length: as the adapter of Siconos has them
 
 
@@ -28,7 +27,7 @@ def _result(name: str, law: str, size: float) -> Result:
     asked = problem(name)
     names = ("acceleration", "fourth_derivative", "curvature_rate", "axial_force")
     loads = {name: asked.epsilon * value for name, value in zip(names, asked.loads) if value}
-    impact = Impact.dimensionless(asked.kappa_over_nu, length=2.0 * HALF_LENGTH).replace(**loads)
+    impact = Impact.dimensionless(asked.kappa_over_nu, length=8.0).replace(**loads)
     scheme = LAWS[law](theta=1.0, time_step=asked.end_time / round(STEPS * asked.end_time / size), growth=0.0)
     contact, far_field = NodeContact(hold=0, hold_until=0.0), GridViscosity(viscosity=0.0, end="following")
     method = HermiteFE(mesh=UniformMesh(size), integrator=scheme, contact=contact, far_field=far_field)

@@ -147,8 +147,7 @@ def test_a_restitution_is_held_against_its_reference_within_bars_and_tolerance(n
 
 
 def test_other_bounces_are_held_against_a_run_with_a_bar_and_none_against_a_band(monkeypatch):
-    coarsely = partial(whole_impact, elements=50)
-    monkeypatch.setattr("bent_beam_programs.open_benchmark.exact.whole_impact", coarsely)
+    monkeypatch.setattr("bent_beam_programs.open_benchmark.exact.whole_impact", partial(whole_impact, elements=50))
     coarse = dataclasses.replace(problem(SHIPPED[-1]), id="bounce-2.0-1e-3")  # not shipped under this name
     found, known = reference(coarse), reference(problem(SHIPPED[-1]))
     assert abs(found.values["restitution"] - known.values["restitution"]) <= found.errors["restitution"] < 1e-3

@@ -8,6 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 from types import SimpleNamespace
+from unittest.mock import Mock
 
 import pytest
 from called import MAIN, answered, command, refused, started
@@ -44,9 +45,7 @@ def test_an_impossible_row_costs_itself():
 
 
 def test_a_full_disk_under_out_costs_the_files_and_no_answer(monkeypatch):
-    def full(*_):
-        raise OSError(28, "No space left on device", "out/match.json")
-
+    full = Mock(side_effect=OSError(28, "No space left on device", "out/match.json"))
     monkeypatch.setattr("comparison.figures.matching.write_match", full)
     monkeypatch.setattr(methods, "_found", lambda: {"theirs": SimpleNamespace(load=lambda: Plain)})
     code, out, err = command(*MATCH, "--out", "out", "--json")
