@@ -113,8 +113,7 @@ def test_no_path_is_compared_by_name_above_the_paths():
 def test_nothing_reads_the_folder_that_sessions_share():
     kinds = {".py", ".toml", ".md", ".j2", ".js", ".css", ".html", ".ipynb", ".yml", ".json", ".lock"}
     files = [f for d in (*PACKAGES, "tests", "docs", "cases") for f in (ROOT / d).rglob("*") if f.suffix in kinds]
-    word = "../" + "shared"
-    assert not [f for f in (*files, ROOT / "Makefile") if word in f.read_text(errors="replace")]
+    assert not [f for f in (*files, ROOT / "Makefile") if "../" + "shared" in f.read_text(errors="replace")]
 
 
 ONE_AFTER_ANOTHER = """

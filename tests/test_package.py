@@ -41,8 +41,7 @@ def test_a_report_without_its_extra_says_what_to_install(tmp_path, monkeypatch):
 def installed(tmp_path_factory):
     """The wheel of a copy of the sources, unpacked where nothing else is."""
     folder = tmp_path_factory.mktemp("package")
-    source = folder / "source"
-    source.mkdir()
+    (source := folder / "source").mkdir()
     for name in PACKAGES:
         shutil.copytree(ROOT / name, source / name, ignore=shutil.ignore_patterns("__pycache__", "*.part"))
     for name in ("pyproject.toml", "README.md", "LICENSE"):

@@ -167,7 +167,6 @@ def test_damping_ratio_and_loss_factor_are_the_same_time_constant():
         ({"beam": PLAIN | {"model": "timoshenko"}, "section": None}, "needs beam.shear_stiffness"),
         ({"beam": PLAIN | {"rotary_inertia": 1.0}, "section": None}, "no effect without"),
         ({"beam": BOW | {"model": "rayleigh"}}, "beam.model must be one of"),
-        # mistakes
         ({"beam": BOW | {"length": -1.0}}, r"^beam.length must be positive \(got -1.0\)"),
         ({"beam": BOW | {"lengt": 1.0}}, r"beam.lengt .* \(did you mean length\?\)"),
         ({"beam": BOW | {"length": "40cm"}}, r"^beam.length must be a finite number in m, .*without its unit .*'40cm'"),

@@ -20,8 +20,7 @@ def area(width, height):
 
 def test_numbers_are_stale_once_code_or_settings_change_and_not_for_words(tmp_path, monkeypatch):
     monkeypatch.setattr(stored, "ROOT", tmp_path)
-    room = tmp_path / "room"
-    room.mkdir()
+    (room := tmp_path / "room").mkdir()
 
     def with_code(*change):
         (room / "area.py").write_text(CODE.replace(*change) if change else CODE)

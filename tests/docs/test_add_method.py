@@ -19,8 +19,7 @@ LABEL = "Finite differences, fine"
 def installed(own_folder: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """The package of the page: its module and what a wheel says of it."""
     (own_folder / "differences.py").write_text(snippet(PAGE, 'title="differences.py"'), encoding="utf-8")
-    about = own_folder / "differences-1.0.dist-info"
-    about.mkdir()
+    (about := own_folder / "differences-1.0.dist-info").mkdir()
     (about / "METADATA").write_text("Metadata-Version: 2.1\nName: differences\nVersion: 1.0\n")
     group, line = re.findall(r'entry-points\."(.+)"\]\n(.+)', snippet(PAGE, "entry-points"))[0]
     (about / "entry_points.txt").write_text(f"[{group}]\n{line.replace(chr(34), '')}\n")

@@ -56,11 +56,9 @@ def test_every_page_keeps_to_its_width_and_to_itself_and_shows_no_markup(chromiu
 def test_formulas_are_drawn(chromium: Any, site: Path, page: str, least: int, width: int) -> None:
     """Each has a size, and the screenshot of a formula holds its ink."""
     browser = opened(chromium, (site / page).as_uri(), width)
-    sizes = ask(
-        browser,
-        "[...document.querySelectorAll('svg.formula')].map(e => { const r = e.getBoundingClientRect();"
-        " return [r.width, r.height, e.querySelectorAll('use, path, rect').length, e.getAttribute('aria-label')]; })",
-    )
+    shape = "e => [e.getBoundingClientRect().width, e.getBoundingClientRect().height,"
+    shape += " e.querySelectorAll('use, path, rect').length, e.getAttribute('aria-label')]"
+    sizes = ask(browser, f"[...document.querySelectorAll('svg.formula')].map({shape})")
     assert len(sizes) >= least
     assert [s for s in sizes if not (s[0] > 3 and s[1] > 3 and s[2] > 0 and s[3])] == []
     formulas = browser.find_elements("css selector", "svg.formula")

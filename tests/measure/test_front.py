@@ -113,10 +113,8 @@ def test_the_map_of_forces_holds_the_impulse_and_a_pull_is_a_share_of_a_push_in_
 def test_the_largest_until_a_time_between_saved_instants_is_that_of_the_steps_until_then() -> None:
     """Moment, force, penetration and pressure on a wall that gives way still grow at 0.03 T*."""
     impact = Impact.whole_beam(1.0, relative_damping=1e-2).replace(wall_stiffness=100.0)
-    fine, coarse = (
-        HermiteFE().for_whole_beam(impact).simulate(impact, end_time=0.04, save=np.linspace(0.0, 0.04, n)[1:])
-        for n in (401, 21)
-    )
+    method, saved = HermiteFE().for_whole_beam(impact), (np.linspace(0.0, 0.04, n)[1:] for n in (401, 21))
+    fine, coarse = (method.simulate(impact, end_time=0.04, save=save) for save in saved)
     for time in (0.0301, 0.031, 0.0319):  # 0.03 and 0.032 are saved
         exact, found = instant(fine, time), instant(coarse, time)
         for name in ("peak_moment", "peak_force", "peak_penetration", "peak_pressure"):

@@ -56,11 +56,9 @@ def test_page_is_the_theory_on_random_beams() -> None:
     impacts = [Impact.dimensionless(ratio).replace(wall_stiffness=1e10) for ratio in pointed] + random_impacts(40)
     section = {"area": area, "modulus": modulus, "yieldStress": None}
     beams = [{here: in_si(i, there) for here, there in NAMES.items()} | section for i in impacts]
-    found = evaluated(
-        "given.beams.map((b) => { const p = Instants.solve(b);"
-        " return {...p, at: given.shares.map((share) => Instants.at(p, share * p.timeScale))}; })",
-        {"beams": beams, "shares": shares},
-    )
+    solved = "given.beams.map((b) => { const p = Instants.solve(b);"
+    solved += " return {...p, at: given.shares.map((share) => Instants.at(p, share * p.timeScale))}; })"
+    found = evaluated(solved, {"beams": beams, "shares": shares})
     causes, compared, unknown = set(), 0, 0
     for impact, answer in zip(impacts, found, strict=True):
         said, limits = theory_predict(impact, [share * impact.time_scale for share in shares]), answer["limits"]

@@ -98,8 +98,7 @@ def test_a_slider_changes_the_field_last_touched_and_a_curve_follows(browser: An
     until(lambda: ask(browser, curve), 60.0)
     before = ask(browser, curve)
     browser.find_element("id", "in-length").click()
-    drag = "const d = document.getElementById('drag'); d.value = 0.5; d.dispatchEvent(new Event('input'))"
-    browser.execute_script(drag)
+    ask(browser, "(d => { d.value = 0.5; d.dispatchEvent(new Event('input')); })(document.getElementById('drag'))")
     assert ask(browser, "document.getElementById('in-length').value") == "6"
     until(lambda: ask(browser, curve) != before, 60.0)
     still = opened(browser, f"{address}#velocity=0")  # no field has a value that could be dragged

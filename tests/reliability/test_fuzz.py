@@ -140,7 +140,6 @@ def test_command_lines_of_rubbish_are_refused(name, arguments):
         json.loads(out, parse_constant=called.finite)
 
 
-# simulations, small enough by hand to finish, or absurd
 numbers = st.one_of(decades(-6.0, 1.0), st.sampled_from([0.0, -1.0, 1e-300, 1e300, 1e30]), anything)
 loads = st.one_of(st.just(0.0), st.floats(-10.0, 10.0))
 few_or_absurd = st.one_of(st.integers(3, 40), st.sampled_from([1, 10**7, 10**300]))

@@ -23,9 +23,8 @@ from tests.open_benchmark.exact import exact_fields
 SECONDS, BYTES = 10.0, 1_000_000_000
 FIELDS = exact_fields()
 WORDS = {"outcome": "completed", "problem": "leading-0.5", "metadata": {"tool": "exact"}}
-GOOD = "tau,J,Jm\n" + "".join(
-    ",".join(map(repr, row)) + "\n" for row in np.column_stack([FIELDS[name] for name in ("tau", "J", "Jm")]).tolist()
-)
+ROWS = np.column_stack([FIELDS[name] for name in ("tau", "J", "Jm")]).tolist()
+GOOD = "tau,J,Jm\n" + "".join(",".join(map(repr, row)) + "\n" for row in ROWS)
 
 
 def pair(table=GOOD, record=WORDS):
