@@ -75,7 +75,7 @@ HOSTILE = {
     "writing turned round": pair(record=WORDS | {"metadata": {"tool": "\u202egnp.exe"}}),
     "a field that is markup": pair(record=WORDS | {"<script>alert(1)</script>": 1}),
     "announced terabytes of values": archive({"J": [header((10**12,))]}),
-    "objects": archive({"J": [header((400,), "|O"), b"cos\nsystem\n(S'true'\ntR."]}),
+    "objects": archive({"J": [header((400,), "|O"), b"cos\nabort\n(tR."]}),  # ends whoever runs it
     "thousands of entries": archive({f"{number:064d}": [] for number in range(5000)}),
     "an escape for a name": archive({"\x1b[31m": [header((1,))]}),
 }
