@@ -16,15 +16,7 @@ from bent_beam.measure.numbers import MISSING, Number
 from comparison.figures.matching import leading_figure, write_match
 from comparison.matching import PERTURBATION, _peak_force, answer, match
 from comparison.methods import methods_from_file
-from comparison.rows import (
-    THESIS_KAPPAS,
-    MatchQuestion,
-    failures,
-    first_order_epsilon,
-    lost_row,
-    match_table,
-    questions,
-)
+from comparison.rows import THESIS_KAPPAS, MatchQuestion, first_order_epsilon, lost_row, match_table, questions
 from comparison.store import RunStore
 from exudyn_models import ExudynModel
 from hermite_fe import HermiteFE
@@ -38,22 +30,19 @@ def off(number, least=0.0):
     return abs(number.relative(least))
 
 
-@pytest.mark.parametrize(
-    ("method", "kappa", "of_lambda0", "of_r0"),
-    [(HermiteFE(), 0.25, 1e-3, 5e-4), (SelfSimilarFE(), 0.5, 2e-4, 1e-4), (ExudynModel(refine=0.5), 0.5, 1e-3, 5e-4)],
-)
-def test_every_path_matches_the_leading_order(method, kappa, of_lambda0, of_r0):
-    row = answer(MatchQuestion(method, kappa, error_bars="drift"), KEEP)
-    assert off(row.lambda0) < of_lambda0 and off(row.r0) < of_r0
+COARSE = ExudynModel(refine=0.5)
+
+
+@pytest.mark.parametrize(("method", "within"), [(HermiteFE(), 5e-4), (SelfSimilarFE(), 1e-4), (COARSE, 5e-4)])
+def test_every_path_matches_the_leading_order(method, within):
+    row = answer(MatchQuestion(method, 0.25, error_bars="drift"), KEEP)
+    assert off(row.lambda0) < 2.0 * within and off(row.r0) < within
     if isinstance(method, SelfSimilarFE):
         assert row.lift < 1e-5 and row.warnings == []
 
 
-@pytest.mark.parametrize(
-    ("method", "of_r0"),
-    [(SelfSimilarFE(refine=0.5), 1e-4), pytest.param(ExudynModel(), 1e-3, marks=pytest.mark.verify)],
-)
-def test_a_point_contact_does_not_spread(method, of_r0, tmp_path):
+@pytest.mark.parametrize("method", [SelfSimilarFE(refine=0.5), pytest.param(ExudynModel(), marks=pytest.mark.verify)])
+def test_a_point_contact_does_not_spread(method, tmp_path):
     """κ/ν ≥ 1: λ₀ = 0, r₀ = ν, r₁ = 2α; the largest load changes V₀t by the method's perturbation, ε α τ/2. Its time
     and steps are those of all its runs, and what is out of balance is the largest of them."""
     question = MatchQuestion(method, 1.25, (1.0, 0.0, 0.0), error_bars="drift")
@@ -66,7 +55,7 @@ def test_a_point_contact_does_not_spread(method, of_r0, tmp_path):
         assert getattr(row, name) == max(known, default=None)
     assert 0.5 * row.epsilons[-1] * question.duration == pytest.approx(getattr(method, "perturbation", PERTURBATION))
     assert row.regime == "discrete" and row.lambda0.value == 0.0
-    assert off(row.r0) < of_r0 and off(row.r1) < 5e-3
+    assert off(row.r0) < (1e-4 if isinstance(method, SelfSimilarFE) else 1e-3) and off(row.r1) < 5e-3
 
 
 UNITS = [(1, 0, 0), (0, 1, 0), (0, 0, 1), (4, 0, 0), (0, 2, 0), (1, 1, 1), (-1, 0, 0), (-1, -1, 0), (-1, -1, 1)]
@@ -88,16 +77,16 @@ FIRST_ORDER = [  # kappas, loads, method, error bars, share of max(|theory|, 1)
 
 @pytest.mark.verify
 @pytest.mark.parametrize(
-    ("method", "kappa", "first", "error_bars", "limit"),
+    ("kappa", "first", "method", "error_bars", "limit"),
     [
-        pytest.param(method, kappa, tuple(map(float, first)), bars, limit, id=f"{method.path}-{kappa}-{first}")
-        for kappa, loads, method, bars, limit in FIRST_ORDER
-        for first in loads
+        pytest.param(kappa, one, *others, id=f"{others[0].path}-{kappa}-{one}")
+        for kappa, loads, *others in FIRST_ORDER
+        for one in loads
     ],
 )
-def test_every_path_matches_the_first_order(method, kappa, first, error_bars, limit):
+def test_every_path_matches_the_first_order(kappa, first, method, error_bars, limit):
     """The self-similar path's bars hold it, too, but for κ/ν = 0.1, whose front is thin."""
-    row = answer(MatchQuestion(method, kappa, first, error_bars=error_bars), KEEP)
+    row = answer(MatchQuestion(method, kappa, tuple(map(float, first)), error_bars=error_bars), KEEP)
     assert off(row.lambda1, 1.0) < limit and off(row.r1, 1.0) < limit
     if isinstance(method, SelfSimilarFE) and error_bars == "quick" and kappa > 0.1:
         assert row.lambda1.covered and row.r1.covered
@@ -128,7 +117,6 @@ def test_what_fails_is_a_row_with_its_reason(tmp_path, monkeypatch):
     rows = match(questions(at_once, [0.5])) + match(questions([Stranger("creeps", "creeps")], [0.5]), limit=0.2)
     assert [r.label for r in rows] == ["Stranger", "fails", "refuses", "creeps"]
     assert [r.r0.value is None for r in rows] == [False, True, True, True]
-    assert [r.label for r in failures(rows)] == ["fails", "creeps"]  # what refuses says so before the run
     assert "no luck" in rows[1].reason
     assert rows[3].reason == "time limit: not finished after 0.2 s"
     assert rows[1].r0.theory == rows[0].r0.theory
@@ -137,7 +125,7 @@ def test_what_fails_is_a_row_with_its_reason(tmp_path, monkeypatch):
     assert {*write_match(rows, tmp_path)} == {*tmp_path.iterdir()}
     document = json.loads((tmp_path / "match.json").read_text())
     assert document["rows"][1]["r0"] == {"value": None, "error": None, "theory": rows[0].r0.theory}
-    assert [f["label"] for f in document["failures"]] == ["fails", "creeps"]
+    assert [f["label"] for f in document["failures"]] == ["fails", "creeps"]  # what refuses says so before the run
     assert all(r.reason in match_table(rows) for r in rows if r.reason)
 
 
@@ -220,7 +208,6 @@ def test_every_shipped_list_can_be_asked_for_and_those_of_all_pairs_hold_every_i
         ("[[method]]\nlabel = 1\npath = 'hermite'", "label must be"),
         ("[[method]]\nlabel = 'x'", "path is required"),
         ("[[method]]\npath = 'hermit'", "did you mean hermite"),
-        ("[[method]]\npath = 'hermite'\nintegator = {}", "did you mean integrator"),
     ],
 )
 def test_a_bad_methods_file_is_refused_in_one_line(tmp_path, text, message):
