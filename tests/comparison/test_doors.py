@@ -26,7 +26,7 @@ from comparison.bouncing import case_of
 from comparison.compare import compare_histories, comparison_text, rerun_history, rerun_text
 from comparison.doors import Swept
 from comparison.predicting import predict_case
-from comparison.readable import milliseconds, unit_for
+from comparison.readable import milliseconds, readable, unit_for
 from comparison.simulating import simulate_case
 from comparison.sweeping import Row
 from comparison.texts import run_text
@@ -260,13 +260,13 @@ def test_energies_in_joules_are_no_surer_than_the_work_of_the_loads_and_a_place_
     assert apart == pytest.approx(1.0 / first_mode(bent), rel=1e-3)  # a period of the lowest mode
 
 
-@pytest.mark.parametrize(
-    ("unit", "value", "written"),
-    [
-        ("m", 9e-3, (1e3, "mm")), ("m", 0.011, (1.0, "m")), ("N/m", 110.0, (1e-3, "kN/m")), ("N", 90.0, (1.0, "N")),
-        ("N s", 500.0, (1.0, "N s")), ("Pa", 1.0, (1e-6, "MPa")), ("s", 1.0, (1e3, "ms")), ("m/s", 1e-3, (1.0, "m/s")),
-    ],
-)  # fmt: skip
-def test_a_number_is_written_in_the_unit_that_suits_its_size(unit: str, value: float, written: Any) -> None:
-    assert unit_for(unit, [None, -value]) == written
+def test_a_number_is_written_in_the_unit_that_suits_its_size_or_with_a_power_of_ten() -> None:
+    written = []
+    for size in "9e-3 m, 0.011 m, 110 N/m, 90 N, 500 N s, 1 Pa, 1 s, 1e-3 m/s".split(", "):
+        value, unit = size.split(" ", 1)
+        scale, name = unit_for(unit, [None, -float(value)])
+        written.append(f"{scale * float(value):g} {name}")
+    assert written == ["9 mm", "0.011 m", "0.11 kN/m", "90 N", "500 N s", "1e-06 MPa", "1000 ms", "0.001 m/s"]
     assert [milliseconds(time) for time in (0.01234, 1.2, 12.0)] == ["12.3 ms", "1200 ms", "12000 ms"]
+    assert [readable(value) for value in (99_900.0, 1e5, 1.23e5)] == ["99900", "10⁵", "1.23·10⁵"]
+    assert [readable(value) for value in (1e-3, 9.99e-4, -1.5e-4)] == ["0.001", "9.99·10⁻⁴", "−1.5·10⁻⁴"]

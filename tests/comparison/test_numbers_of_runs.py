@@ -17,7 +17,6 @@ from comparison.bouncing import case_of, follow_hits, problem, whole_numbers, wh
 from comparison.doubts import energy_residual, loss_warnings, numerical_loss, told_by, wide_bars
 from comparison.predicting import OF_INSTANT, instant_numbers, instants_reading
 from comparison.questions import Question
-from comparison.readable import readable
 from comparison.runs import Run, Runs, numbers_of
 from comparison.texts import bounce_text
 from hermite_fe import HermiteFE
@@ -260,8 +259,3 @@ def test_a_document_holds_the_damping_of_its_beam_and_what_the_budget_leaves_and
                  "deepest node 0.004 V0 t, largest pull 0.005 of", "hysteretic loss 0.2 within 3 % from 10 to 200 Hz",
                  "T* = 0.03 s", "at least 0.002 T* (6e-05 s)"):  # fmt: skip
         assert part in said
-
-
-def test_a_number_from_a_hundred_thousand_on_or_below_a_thousandth_has_a_power_of_ten() -> None:
-    assert [readable(value) for value in (99_900.0, 1e5, 1.23e5)] == ["99900", "10⁵", "1.23·10⁵"]
-    assert [readable(value) for value in (1e-3, 9.99e-4, -1.5e-4)] == ["0.001", "9.99·10⁻⁴", "−1.5·10⁻⁴"]
