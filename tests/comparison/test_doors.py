@@ -105,10 +105,8 @@ def check(case: Case, share: float) -> None:
     assert replace(separated, runs=moved).to_dict()["peak_moment_place"] == 0.5 * case.impact.half_length
     assert separated.numbers["peak_moment"].known == whole["peak_moment"]["value"] * scales(case.impact)["moment"]
     assert predicted["span"] == whole["span"] and whole["span"][1] > whole["si"]["last_contact"]["value"]
-    if case.impact.wall_stiffness is None:
-        assert predicted["peak_force"] is None
-    else:
-        assert same(predicted["peak_force"], whole["si"]["peak_force"])
+    force = whole["si"].get("peak_force")  # none of a rigid wall
+    assert predicted["peak_force"] is force is None or same(predicted["peak_force"], force)
 
 
 def test_every_door_gives_the_same_number_with_the_same_bar() -> None:
