@@ -124,7 +124,7 @@ def test_the_bar_of_the_last_contact_holds_the_shift_of_its_beginning(other, shi
 @pytest.mark.parametrize("e", [0.02, 0.5, -0.2])
 @pytest.mark.parametrize(("kappa", "least"), [(1.1, 1e-4), (0.5, 4e-4), (0.2, 2.5e-3), (0.05, 1e-2), (1e-160, 1e-2)])
 def test_a_rebound_from_a_rigid_wall_is_the_less_known_the_flatter_the_beam(kappa, least, e) -> None:
-    """And no better than its impulse, J = (1 + e)mV, nor its energies than e²; the companions agree but for round-off."""
+    """And no better than its impulse, J = (1 + e)mV, nor its energies than e²; companions agree but for round-off."""
     names = ("restitution", "impulse", "translation", "vibration", "peak_moment")
     reading = whole_reading(pushed_until(0.5)) | {"restitution": e, "translation": e**2, "vibration": 0.1}
     other = reading | {name: reading[name] * (1.0 + 1e-9) for name in names}
