@@ -13,7 +13,7 @@ from bent_beam.measure.numbers import FACTOR, Band, Number
 from bent_beam.measure.reduction import peak_moment
 from bent_beam.meshes import UniformMesh
 from comparison.bounced import Bounce
-from comparison.bouncing import case_of, follow_hits, problem, whole_numbers, whole_reading
+from comparison.bouncing import case_of, problem, whole_numbers, whole_reading
 from comparison.doubts import energy_residual, loss_warnings, numerical_loss, told_by, wide_bars
 from comparison.predicting import OF_INSTANT, instant_numbers, instants_reading
 from comparison.questions import Question
@@ -217,17 +217,6 @@ def test_what_is_missing_of_the_energy_without_being_booked_counts_as_lost() -> 
     assert numerical_loss(twice) == pytest.approx(0.025)
     assert loss_warnings(booked | {"defect": -0.01}) and not loss_warnings(booked)
     assert energy_residual(ENERGY | {"defect": -0.01, "work_of_loads": -1.0}) == pytest.approx(0.005)
-
-
-def test_hits_are_followed_until_so_many_are_over_or_the_beam_comes_to_rest(monkeypatch) -> None:
-    """A bar that its wall throws off with 0.44 V is back after 0.88 V/g, until its flights are too short to be any."""
-    simulate, ends, few = HermiteFE.simulate, [0.0], HermiteFE(mesh=UniformMesh(0.5))
-    bar = Impact(1.0, 1.0, 2.0, 0.0, 1.0, damping=1e-2, acceleration=0.25, wall_stiffness=64.0, wall_damping=4.8)
-    first = few.simulate_to_separation(bar)
-    monkeypatch.setattr(HermiteFE, "simulate", lambda *a, **how: ends.append(how["end_time"]) or simulate(*a, **how))
-    assert len(follow_hits(bar, few, 1, first=first)) == 1
-    one, other = follow_hits(bar, few, 9, first=first)
-    assert max(ends) < 50.0 and other.begin == pytest.approx(one.end + 0.88 / 0.25, rel=0.02)
 
 
 def test_a_straight_beam_that_its_wall_presses_evenly_has_no_moment_of_round_off() -> None:

@@ -18,6 +18,7 @@ from comparison.compare import rerun_history
 from exudyn_models import ExudynModel
 from exudyn_models.contacts import Penalty
 from hermite_fe import HermiteFE
+from hermite_fe.integrators import Midpoint
 
 BASES = [EXACT]
 if FUZZ:
@@ -45,14 +46,19 @@ def test_every_number_of_a_run_changes_with_its_unit(kind, base):
             agree(one, other, OF_HIT, base)
 
 
-def test_hits_that_follow_change_with_their_units():
-    impact, found = FALLING.replace(acceleration=0.3), []
-    for one, metre in ((impact, 1.0), (in_units(impact, EXACT), EXACT["m"])):
-        method = HermiteFE(mesh=UniformMesh(metre / 20.0)).for_whole_beam(one)
-        found.append(follow_hits(one, method, 2, first=method.simulate_to_separation(one)))
-    assert len(found[0]) == 2
+def test_hits_are_followed_until_so_many_are_over_or_the_beam_comes_to_rest_and_change_with_their_units(monkeypatch):
+    """A bar that its wall throws off with 0.44 V is back after 0.88 V/g, until its flights are too short to be any."""
+    bar = Impact(1.0, 1.0, 2.0, 0.0, 1.0, damping=1e-2, acceleration=0.25, wall_stiffness=64.0, wall_damping=4.8)
+    sizes = [(0.5 * one["m"], 5e-3 * one["s"]) for one in ({"m": 1.0, "s": 1.0}, EXACT)]
+    few, tiny = (HermiteFE(mesh=UniformMesh(element), integrator=Midpoint(step, 0.0)) for element, step in sizes)
+    both = [(bar, few), (in_units(bar, EXACT), tiny)]
+    firsts, ends, simulate = [method.simulate_to_separation(one) for one, method in both], [], HermiteFE.simulate
+    found = [follow_hits(*one, 2, first=first) for one, first in zip(both, firsts)]
     for one, other in zip(*found, strict=True):
         agree(one, other, OF_HIT)
+    monkeypatch.setattr(HermiteFE, "simulate", lambda *a, **how: ends.append(how["end_time"]) or simulate(*a, **how))
+    one, other = follow_hits(*both[0], 9, first=firsts[0])
+    assert max(ends) < 50.0 and other.begin == pytest.approx(one.end + 0.88 / 0.25, rel=0.02)
 
 
 OF_PARTS = dict.fromkeys(("element_length", "zone", "domain", "places"), "m")
