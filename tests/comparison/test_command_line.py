@@ -6,6 +6,7 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from unittest.mock import Mock
 
 import pytest
 from called import answered, command, refused
@@ -72,9 +73,7 @@ def test_a_match_whose_rows_are_all_refused_is_bad_input_and_still_a_document(ca
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["theory", "--kappa-over-nu", "nan"], "kappa_over_nu"),
         (["simulate", K10, "--path", "abaqus"], "path"),
-        (["simulate", K10, "--set", "beam.bending_stiffness=-1.0"], "bending_stiffness must be positive (got -1.0)"),
         (["simulate", K10, "--set", "hermite.contact.kind=nod"], "did you mean node?"),
         (["simulate", K10, "--set", "nonsense"], "--set"),
         (["match", "--first-order", "1,2"], "alpha,psi,chi"),
@@ -86,7 +85,6 @@ def test_a_match_whose_rows_are_all_refused_is_bad_input_and_still_a_document(ca
         (["bounce", "--kappa-over-nu", "2", "--damping", "-1"], "damping"),
         (["study", "colour", K10], "colour"),
         (["gallery", "fig-9.9"], "fig-9.9"),
-        (["frobnicate"], "frobnicate"),
         # what would have no effect
         (["simulate", K10, "--set", "exudyn={refine=2.0}"], "has no effect: the path is hermite"),
         (["problem", "leading-0.5", "--overwrite"], "without --out"),
@@ -96,7 +94,6 @@ def test_a_match_whose_rows_are_all_refused_is_bad_input_and_still_a_document(ca
         (["bounce", K10, "--set", "self_similar.refine=2"], "the path is hermite"),
         (["bounce", K10, "--set", "run.duration=1"], "a whole impact ends with the last separation"),
         (["bounce", "--kappa-over-nu", "2", "--damping", "0.1", "--seed", "0"], "seed has no effect"),
-        (["bounce", K10, "--runs", "3"], "runs has no effect"),
         ([*SWEEP, "--vary", "exudyn.refine=1,2"], "vary: 'exudyn.refine' has no effect: the path is hermite"),
         ([*SWEEP, "--vary", "run.end_time=1,2"], "the last separation ends a row"),
         ([*SWEEP, *VELOCITIES, "--set", "impact.velocity=3"], "says the same in every row"),
@@ -119,7 +116,6 @@ def test_a_match_whose_rows_are_all_refused_is_bad_input_and_still_a_document(ca
         (["study", "list", K10], "study list takes --json alone"),
         (["study", "contact-point", K10, *EVEN], "their own"),
         (["gallery", "--list", "fig-3.9"], "--list lists all and draws nothing: leave 'fig-3.9' out"),
-        (["gallery", "--list", "--jobs", "1"], "leave --jobs out"),
         (["benchmark", "--install", "scikit-fem", "--seconds", "9"], "--install runs nothing: leave --seconds out"),
     ],
 )
@@ -133,12 +129,9 @@ def test_the_beam_of_two_numbers_is_told_to_be_no_real_one():
 
 
 def test_a_solver_that_cannot_finish_is_exit_3_with_a_partial_history(tmp_path, monkeypatch):
-    part = pushed_until(0.5)
-
-    def fails(*_, **__):
-        raise SimulationError("the Newton solve diverged", time=1e-5, step=12, advice="a smaller step", history=part)
-
-    monkeypatch.setattr(HermiteFE, "simulate", fails)
+    part, why = pushed_until(0.5), "the Newton solve diverged"
+    failed = SimulationError(why, time=1e-5, step=12, advice="a smaller step", history=part)
+    monkeypatch.setattr(HermiteFE, "simulate", Mock(side_effect=failed))
     for kept in ("run.v2.partial.nc", "run.v2.partial-2.nc"):
         code, _, error = command("simulate", K10, "--out", tmp_path / "run.v2.nc")
         assert code == 3

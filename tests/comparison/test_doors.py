@@ -3,7 +3,6 @@
 import json
 import random
 import re
-from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -34,26 +33,17 @@ from hermite_fe import HermiteFE
 from theory import contact_parameters
 
 SEED = 20261123
-NAMES = {"half_contact_length": "half_contact_length", "impulse": "total_impulse"}
 
 
-def drawn(count: int, *laid_over: str) -> Iterator[Case]:
-    """Tubes of a seed: rigid and elastic walls, tension, elastic bows, gravity, light to heavy damping."""
-    rng = random.Random(SEED)
-    for k in range(count):
-        beam = {"length": rng.uniform(1.0, 5.0), "sagitta": 10.0 ** rng.uniform(-3.5, -2.0)}
-        beam["damping_ratio"] = 10.0 ** rng.uniform(-2.5, -1.0)
-        tables = {"beam": beam, "impact": {"velocity": 10.0 ** rng.uniform(-0.7, 0.5), "gravity": 0.0}, "wall": {}}
-        match k % 4:
-            case 1:
-                tables["wall"] = {"stiffness": 10.0 ** rng.uniform(6.0, 8.0), "damping_ratio": rng.uniform(0.0, 0.7)}
-            case 2:
-                beam["axial_force"] = rng.uniform(100.0, 2000.0)
-            case 3:
-                beam["natural_curvature"] = 0.0
-                tables["impact"]["gravity"] = 9.81
-        said = [f"{table}.{key}={value!r}" for table, values in tables.items() for key, value in values.items()]
-        yield load_case(CASES / "tube.toml", [*said, *laid_over])
+def drawn(uniform: Any, kind: int, *laid_over: str) -> Case:
+    """A tube before a rigid wall, an elastic one, under tension, or an elastic bow that falls; any damping."""
+    said = {"beam.length": uniform(1.0, 5.0), "beam.sagitta": 10.0 ** uniform(-3.5, -2.0), "impact.gravity": 0.0}
+    said |= {"beam.damping_ratio": 10.0 ** uniform(-2.5, -1.0), "impact.velocity": 10.0 ** uniform(-0.7, 0.5)}
+    elastic = {"wall.stiffness": 10.0 ** uniform(6.0, 8.0), "wall.damping_ratio": uniform(0.0, 0.7)}
+    pulled = {"beam.axial_force": uniform(100.0, 2000.0)}
+    falling = {"beam.natural_curvature": 0.0, "impact.gravity": 9.81}
+    said |= ({}, elastic, pulled, falling)[kind]
+    return load_case(CASES / "tube.toml", [*(f"{key}={value!r}" for key, value in said.items()), *laid_over])
 
 
 def same(one: dict[str, Any], other: dict[str, Any]) -> bool:
@@ -94,7 +84,8 @@ def check(case: Case, share: float) -> None:
     at, simulated = predicted["times"][0]["simulation"], run.to_dict()
     largest = np.argmax(np.abs(run.history.array("largest_moment")))
     assert simulated["peak_moment_time"] == pytest.approx(run.history.time[largest], rel=0.02)
-    assert all(same(at[name], simulated[theirs]) for name, theirs in NAMES.items())
+    for name, theirs in (("half_contact_length", "half_contact_length"), ("impulse", "total_impulse")):
+        assert same(at[name], simulated[theirs])
     for name in ("peak_moment", "peak_stress"):
         assert (at[name]["value"], at[name]["error"]) == (simulated[name], simulated[f"{name}_error"])
     separated, predicted = simulate_case(case, "hermite", until=None), predicted["whole_impact"]
@@ -110,9 +101,8 @@ def check(case: Case, share: float) -> None:
 
 
 def test_every_door_gives_the_same_number_with_the_same_bar() -> None:
-    *_, elastic, tensioned = drawn(3, "hermite.refine=0.125")
-    check(elastic, 0.02)
-    check(tensioned, 0.002)
+    for kind, share in ((1, 0.02), (2, 0.002)):
+        check(drawn(random.Random(SEED).uniform, kind, "hermite.refine=0.125"), share)
 
 
 def apart(one: ImpactHistory, other: ImpactHistory, name: str = "gap") -> float | None:
@@ -126,9 +116,8 @@ def test_gaps_are_compared_wherever_both_runs_have_the_beam_at_the_end_of_their_
     for place in (0.0, 0.4, 1.0):
         one = at(time, coarse, gap=np.outer(time, np.where(coarse == place, 0.6, 0.0)))
         assert apart(one, at(time, fine)) == pytest.approx(0.3)
-    runs = [at(times, fine, gap=np.outer(times, 1.0 + fine)) for times in ([0.0, 0.7, 1.0], [0.0, 0.4, 1.2, 1.6])]
-    assert apart(*runs) == pytest.approx(0.0, abs=1e-12)
-    late = [at(times, fine, gap=np.outer(np.fmax(times, 0.4), 1.0 + fine)) for times in ([0.0, 1.0], [0.0, 0.4, 1.2])]
+    instants = [0.0, 0.7, 1.0], [0.0, 0.4, 1.2, 1.6]
+    late = [at(times, fine, gap=np.outer(np.fmax(times, 0.4), 1.0 + fine)) for times in instants]
     assert apart(*late) == pytest.approx(0.0, abs=1e-12)  # linear from the instant before, not from an earlier one
     x = np.linspace(0.0, 1.0, 16)  # a gap of x³ is one cubic
     curved = Impact.whole_beam(0.5).replace(wall_curvature=0.4, first_touch=0.2)
@@ -202,9 +191,9 @@ def test_what_differs_far_down_or_late_is_told_by_its_full_name_from_where_it_di
 
 @pytest.mark.verify
 def test_twenty_beams_of_a_seed_are_answered_alike_at_every_door() -> None:
-    rng = random.Random(SEED + 1)
-    for case in drawn(20):
-        check(case, 10.0 ** rng.uniform(-3.0, -0.5))
+    uniform = random.Random(SEED).uniform
+    for number in range(20):
+        check(drawn(uniform, number % 4), 10.0 ** uniform(-3.0, -0.5))
 
 
 def test_a_wall_that_gives_way_and_is_not_yet_touched_has_no_place_of_its_force() -> None:

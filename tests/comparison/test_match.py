@@ -2,10 +2,11 @@
 
 import json
 import re
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache
 from itertools import product
 from types import SimpleNamespace
+from typing import Any
 
 import pytest
 from here import CASES
@@ -30,10 +31,7 @@ def off(number, least=0.0):
     return abs(number.relative(least))
 
 
-COARSE = ExudynModel(refine=0.5)
-
-
-@pytest.mark.parametrize(("method", "within"), [(HermiteFE(), 5e-4), (SelfSimilarFE(), 1e-4), (COARSE, 5e-4)])
+@pytest.mark.parametrize(("method", "within"), [(HermiteFE(), 5e-4), (SelfSimilarFE(), 1e-4), (ExudynModel(), 5e-4)])
 def test_every_path_matches_the_leading_order(method, within):
     row = answer(MatchQuestion(method, 0.25, error_bars="drift"), KEEP)
     assert off(row.lambda0) < 2.0 * within and off(row.r0) < within
@@ -67,7 +65,6 @@ FIRST_ORDER = [  # kappas, loads, method, error bars, share of max(|theory|, 1)
     # under tension: held by a load, and in free flight, where λ₁ and r₁ are λ_N and r_N
     *((k, [(0, 0, 0, 1), (-k, 0, 0, 1)], SelfSimilarFE(), "drift", 3e-3) for k in (0.1, 0.15, 0.25, 0.35, 0.5, 0.8)),
     *((kappa, [(-kappa, 0, 0, 1)], ExudynModel(), "drift", 0.03) for kappa in (0.1, 0.25, 0.5, 0.8)),
-    (0.5, [(4, 0, 0)], ExudynModel(refine=0.5), "drift", 0.01),
     (0.07, [(-2, 0, 0, 3)], ExudynModel(), "drift", 0.02),  # a thin front off which the load lifts the zone
     (0.28, [(0, 1, 0)], ExudynModel(), "drift", 0.02),  # the far field would come to the wall
     (0.99, [(1, 0, 0), (-1, 0, 0)], ExudynModel(), "drift", 0.1),  # a zone of a few hundredths
@@ -150,20 +147,16 @@ def test_what_fails_outside_its_run_costs_its_row_too():
 without_lift = cache(SelfSimilarFE.simulate)
 
 
-@dataclass(frozen=True)
-class Lifted(SelfSimilarFE):
-    """It throws its zone off the wall by so much of V₀t; that share of the push is doubtful, of r₁ twice as much."""
-
-    lift: float = 0.0
-
-    def simulate(self, impact, **asked):
-        data = without_lift(replace(self, lift=0.0), impact, **asked).dataset
-        return ImpactHistory.of(data.assign(gap=data["gap"] + self.lift * impact.velocity * data["time"]))
-
-
 @pytest.mark.parametrize(("lift", "said"), [(0.04, ""), (0.05, "λ₀ r₀"), (0.08, "λ₀ r₀ r₁")])
-def test_bars_wider_than_2_percent_of_leading_and_10_of_first_order_are_a_warning(lift, said):
-    row = answer(MatchQuestion(Lifted(refine=0.5, lift=lift), 0.5, (4.0, 0.0, 0.0), error_bars="drift"), KEEP)
+def test_bars_wider_than_2_percent_of_leading_and_10_of_first_order_are_a_warning(lift, said, monkeypatch):
+    """A zone thrown off its wall by so much of V₀t: that share of the push is doubtful, of r₁ twice as much."""
+
+    def lifted(method, impact, **asked):
+        data = without_lift(method, impact, **asked).dataset
+        return ImpactHistory.of(data.assign(gap=data["gap"] + lift * impact.velocity * data["time"]))
+
+    monkeypatch.setattr(SelfSimilarFE, "simulate", lifted)
+    row = answer(MatchQuestion(SelfSimilarFE(refine=0.5), 0.5, (4.0, 0.0, 0.0), error_bars="drift"), KEEP)
     told = " ".join(warning for warning in row.warnings if warning.startswith("wide error bar"))
     assert [symbol for symbol in ("λ₀", "r₀", "λ₁", "r₁") if f"{symbol} = " in told] == said.split()
     assert ("λ₀" in said) == (row.r0.bar > 0.02 * row.r0.value) and ("r₁" in said) == (row.r1.bar > 0.1 * row.r1.value)
@@ -247,19 +240,13 @@ def test_the_default_rows_are_the_cases_of_the_thesis_that_touch_with_a_zone() -
     assert sorted(THESIS_KAPPAS) == pytest.approx(sorted(kappa for kappa in cases if kappa < 1.0))
 
 
-@pytest.mark.parametrize(
-    ("front", "first", "change"),
-    [
-        (1.0, (0.0, 0.0, -3.0, 0.0), lambda z: 3.0 * z**2 / 2.0),
-        (2.0, (0.0, 5.0, 0.0, 0.1), lambda z: 5.0 * z**4 / 24.0 + 0.1 / 2.0),
-        (0.05, (0.0, 5.0, 0.0, 0.0), lambda z: 5.0 * z**4 / 24.0),
-    ],
-)
-def test_runs_of_first_order_change_the_free_motion_by_a_small_part(front, first, change) -> None:
+@pytest.mark.parametrize("front", [2.0, 0.05])
+def test_runs_of_first_order_change_the_free_motion_by_a_small_part(front) -> None:
     """Of V₀t at the end, at z, a little beyond the front; less where the front is near the middle."""
     z, part = front + (1.0 + front**2) ** -0.5, 0.05 * front / (front + 0.2)
-    epsilon = first_order_epsilon(SimpleNamespace(front=front), first, 0.05, 0.1)  # type: ignore[arg-type]
-    assert epsilon * 0.1 * change(z) == pytest.approx(part)
+    leading: Any = SimpleNamespace(front=front)
+    epsilon = first_order_epsilon(leading, (-1.0, 5.0, -3.0, 0.1), 0.05, 0.1)
+    assert epsilon * 0.1 * (1.0 / 2.0 + 5.0 * z**4 / 24.0 + 3.0 * z**2 / 2.0 + 0.1 / 2.0) == pytest.approx(part)
 
 
 def test_the_theory_of_a_soft_wall_stands_beside_the_force_of_a_beam_without_loads_within_its_range() -> None:

@@ -13,8 +13,6 @@ from bent_beam.meshes import NodesMesh
 from exudyn_models import ExudynModel
 from hermite_fe import HermiteFE
 
-SHEAR = {"shear_stiffness": 400.0, "rotary_inertia": 1e-3}
-
 
 @dataclass(frozen=True)
 class Pushed(Impact):
@@ -40,7 +38,7 @@ def pushed(force, place, **others):
         (pushed(2.0, 0.0), 5e-3),
         pytest.param(pushed(-1e5, 0.2), 5e-3, marks=pytest.mark.verify),  # in the end as fast as 1e4 V₀, and as steep
         (pushed(-3.0, 0.37), 5e-3),
-        (pushed(1.0, -1.0, **SHEAR), 2e-2),
+        (pushed(1.0, -1.0, shear_stiffness=400.0, rotary_inertia=1e-3), 2e-2),
     ],
 )
 def test_force_and_wall_move_and_turn_the_beam_and_both_paths_agree(beam, alike) -> None:
