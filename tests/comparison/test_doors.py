@@ -20,7 +20,6 @@ from bent_beam.measure.force_map import force_map
 from bent_beam.meshes import UniformMesh
 from bent_beam.versions import versions
 from comparison import bounce, match, predict
-from comparison.bounced import scales
 from comparison.bouncing import case_of
 from comparison.compare import compare_histories, comparison_text, rerun_history, rerun_text
 from comparison.doors import Swept
@@ -94,7 +93,7 @@ def check(case: Case, share: float) -> None:
     assert all(same(predicted[name], whole["si"][name]) for name in ("peak_moment", "last_contact"))
     moved = separated.runs.part(lambda one: one | {"whole": one["whole"] | {"peak_moment_place": 0.5}})
     assert replace(separated, runs=moved).to_dict()["peak_moment_place"] == 0.5 * case.impact.half_length
-    assert separated.numbers["peak_moment"].known == whole["peak_moment"]["value"] * scales(case.impact)["moment"]
+    assert separated.numbers["peak_moment"].known == whole["peak_moment"]["value"] * case.impact.moment_scale
     assert predicted["span"] == whole["span"] and whole["span"][1] > whole["si"]["last_contact"]["value"]
     force = whole["si"].get("peak_force")  # none of a rigid wall
     assert predicted["peak_force"] is force is None or same(predicted["peak_force"], force)

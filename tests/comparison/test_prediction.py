@@ -107,20 +107,6 @@ def test_a_rod_under_its_weight_leaves_with_what_is_known_of_it(tmp_path: Path) 
     assert f"ratio of the material: {number_from(largest).scaled(1e-6)} at 2 %" in text
 
 
-def test_a_damping_that_is_not_stated_is_answered_over_three_and_one_that_is_stated_once(tmp_path: Path) -> None:
-    """The numbers are those of the largest stress; where damping is stated nothing else is run."""
-    file = rod(tmp_path, element=0.1)
-    file.write_text(file.read_text().replace("damping_ratio", "# damping_ratio"))
-    asked = ("bounce", file)
-    found = answered(*asked)
-    rows = found["over_damping"]
-    assert [row["damping_ratio"] for row in rows] == [0.0002, 0.002, 0.02]
-    assert found["peak_stress"]["value"] == max(row["peak_stress"]["value"] for row in rows)
-    assert any("no damping is stated" in line and "0.02, 0.2, 2 % of the" in line for line in found["warnings"])
-    stated = answered(*asked, "--set", "beam.damping_ratio=0.002")
-    assert stated["over_damping"] is None and stated["restitution"] == rows[1]["restitution"]
-
-
 def test_a_pull_as_large_as_the_buckling_load_leaves_half_of_a_bow_and_a_tenth_of_it_is_not_worth_a_word() -> None:
     """A half sine of height b rests at b/(1 + NL²/(π²EI)). In units EI = μ = V₀ = 1 no bow is steep."""
     beam = Impact(4.0, 1.0, 2.0, 0.1, 1.0)

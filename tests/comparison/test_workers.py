@@ -7,6 +7,7 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from unittest.mock import Mock
 
 import pytest
 from processes import ended, until
@@ -57,14 +58,10 @@ def cluster():
 
 @pytest.fixture(autouse=True)
 def no_longer_than_two_minutes():
-    def ring(*_):
-        raise AssertionError("no answer within two minutes")
-
-    before = signal.signal(signal.SIGALRM, ring)
+    signal.signal(signal.SIGALRM, lambda *_: pytest.fail("no answer within two minutes"))
     signal.alarm(120)
     yield
     signal.alarm(0)
-    signal.signal(signal.SIGALRM, before)
 
 
 @pytest.fixture
@@ -93,12 +90,8 @@ def test_answers_come_in_the_order_of_the_questions_and_a_worker_that_dies_costs
 def test_what_a_call_or_its_caller_raises_is_raised(where):
     with pytest.raises(ValueError, match=r"^negative$"):
         run_all(root, [(4.0,), (-1.0,)], on_death=lambda i, why: pytest.fail(why), **where)
-
-    def full(*_):
-        raise OSError("disk full")
-
     with pytest.raises(OSError, match=r"^disk full$"):
-        run_all(root, [(4.0,), (9.0,)], progress=full, **where)
+        run_all(root, [(4.0,), (9.0,)], progress=Mock(side_effect=OSError("disk full")), **where)
 
 
 def test_a_scheduler_beside_jobs_or_that_does_not_answer_within_ten_seconds_is_bad_input(monkeypatch):
