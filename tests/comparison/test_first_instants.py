@@ -88,12 +88,6 @@ def test_before_a_curved_wall_the_slope_is_that_of_the_deflection_and_both_paths
     assert moments[0] == pytest.approx(moments[1], rel=0.05)
 
 
-def test_a_beam_that_touches_in_a_point_bends_by_the_step_in_velocity() -> None:
-    """V₀√(EIμ) from the first instant on: the stiff contact of a mesh bends it more, for a few steps."""
-    for history in simulated(0.004, 1.2):
-        assert peak_moment(history).moment == pytest.approx(1.0, rel=2e-3)
-
-
 def test_both_paths_agree_on_moment_and_front_of_a_zone_that_damping_lifts():
     """Damping keeps the zone off the wall from the first instant on: all of the reaction is at the front."""
     hermite, exudyn = simulated(0.004, 0.29, damping=3e-3, acceleration=4.9)
@@ -135,23 +129,19 @@ def test_a_zone_that_its_scheme_throws_off_the_wall_is_pushed_too_hard_and_the_b
     assert found[0].parts["lift"] > 0.0 == found[1].parts["lift"]
 
 
-@pytest.mark.parametrize(
-    ("kappa", "peak", "damping", "end"),
-    [(0.6, 0.7577, 1.3e-4, 0.002), (0.43, 0.6524, 1.3e-4, 0.016), (0.6, 0.7577, 2e-5, 0.016)],
-)
-def test_the_largest_moment_so_far_holds_that_of_a_damped_start(kappa, peak, damping, end) -> None:
+@pytest.mark.parametrize(("kappa", "damping", "end"), [(0.6, 1.3e-4, 0.002), (0.43, 1.3e-4, 0.016), (0.6, 2e-5, 0.016)])
+def test_the_largest_moment_so_far_holds_that_of_a_damped_start(kappa, damping, end) -> None:
     """Damping lifts the bow at first: its middle moment rises, at about η, to a value of κ/ν alone, and falls."""
+    peak = {0.6: 0.7577, 0.43: 0.6524}[kappa]
     found = numbers(Impact.whole_beam(kappa, relative_damping=damping), end)["peak_moment"]
     assert abs(found.known - peak) <= found.spread or found.known > peak
     assert end > 0.01 or found.spread < 0.01 * peak
 
 
-@pytest.mark.parametrize(
-    ("path", "load", "half", "error"),
-    [("hermite", 0.2, 1.277, 0.006), ("hermite", -0.2, 0.760, 0.003), ("self_similar", -0.2, 0.760, 0.003)],
-)
-def test_a_zone_that_does_not_spread_as_the_root_of_time_is_as_long_as_by_another_code(path, load, half, error):
+@pytest.mark.parametrize(("path", "load"), [("hermite", 0.2), ("hermite", -0.2), ("self_similar", -0.2)])
+def test_a_zone_that_does_not_spread_as_the_root_of_time_is_as_long_as_by_another_code(path, load):
     """By another code's active set, converged; the pushes of a tenth of the time carried as √t are 3 % off."""
+    half, error = (1.277, 0.006) if load > 0.0 else (0.760, 0.003)
     impact = Impact.dimensionless(0.5, length=40.0).replace(acceleration=load)
     found = numbers(impact, 1.0, path)["half_contact_length"]
     assert abs(found.known - half) <= found.spread + error and found.spread < 0.04 * half
@@ -163,11 +153,6 @@ def test_a_zone_within_few_elements_has_no_sure_length() -> None:
     found, exact = numbers(impact, 0.1), predict(impact, [0.1])
     assert abs(found["lambda0"].known - exact.lambda0) <= found["lambda0"].spread < 0.02
     assert abs(found["half_contact_length"].known - exact.times[0].half_contact_length) <= found["lambda0"].spread
-
-
-def test_a_beam_off_the_wall_has_no_contact() -> None:
-    found = numbers(Impact.dimensionless(0.5, length=40.0).replace(acceleration=-0.6), 3.0)
-    assert found["half_contact_length"].value is None and found["reaction"].known == 0.0
 
 
 @pytest.mark.parametrize("time", [1e-3, 0.1])
