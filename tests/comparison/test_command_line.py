@@ -94,6 +94,7 @@ def test_a_match_whose_rows_are_all_refused_is_bad_input_and_still_a_document(ca
         (["bounce", K10, "--set", "self_similar.refine=2"], "the path is hermite"),
         (["bounce", K10, "--set", "run.duration=1"], "a whole impact ends with the last separation"),
         (["bounce", "--kappa-over-nu", "2", "--damping", "0.1", "--seed", "0"], "seed has no effect"),
+        (["bounce", K10, "--runs", "3"], "runs has no effect"),
         ([*SWEEP, "--vary", "exudyn.refine=1,2"], "vary: 'exudyn.refine' has no effect: the path is hermite"),
         ([*SWEEP, "--vary", "run.end_time=1,2"], "the last separation ends a row"),
         ([*SWEEP, *VELOCITIES, "--set", "impact.velocity=3"], "says the same in every row"),
@@ -116,6 +117,7 @@ def test_a_match_whose_rows_are_all_refused_is_bad_input_and_still_a_document(ca
         (["study", "list", K10], "study list takes --json alone"),
         (["study", "contact-point", K10, *EVEN], "their own"),
         (["gallery", "--list", "fig-3.9"], "--list lists all and draws nothing: leave 'fig-3.9' out"),
+        (["gallery", "--list", "--jobs", "1"], "leave --jobs out"),
         (["benchmark", "--install", "scikit-fem", "--seconds", "9"], "--install runs nothing: leave --seconds out"),
     ],
 )
