@@ -39,16 +39,12 @@ def test_error_bars_of_a_bounce_hold_the_converged_value(path, elements, widest)
     apart = np.diff(found.history.time)[np.searchsorted(found.history.time, last.known * unit) - 1] / unit
     assert last.parts["saved_instants"] == pytest.approx(0.5 * apart)  # it lies between two of them
     assert abs(restitution.value - 0.33636) <= restitution.bar < widest
-    document = found.to_dict()
-    assert json.loads(json.dumps(document)) == document
-    assert document["si"]["impulse"]["value"] == pytest.approx(2.0 * (1.0 + restitution.value))
 
 
 def test_a_bounce_off_a_wall_that_gives_way_has_its_largest_force_and_gives_its_energy_back() -> None:
     found = bounce(problem(0.5, 1e-2).replace(wall_stiffness=1e3), HermiteFE(mesh=UniformMesh(0.1)), save=500)
     assert set(found.numbers["peak_force"].parts) == {"mesh_and_step", "sharp"}
     assert found.numbers["peak_force"].bar < 0.02
-    assert found.to_dict()["si"]["peak_force"]["value"] == pytest.approx(found.history.array("peak_force")[-1])
     assert found.numbers["restitution"].known > 0.34  # more than off a rigid wall, whose impacts lose 1 − e²
     budget = found.history.energy_budget()
     assert budget["contact_energy"] == budget["loss_impact"] == 0.0 and budget["loss_material"] > 0.0

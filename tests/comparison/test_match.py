@@ -106,11 +106,9 @@ def test_what_fails_is_a_row_with_its_reason(tmp_path, monkeypatch):
         monkeypatch.setattr(f"comparison.figures.{figure}", lambda *_: [])
     at_once = [Stranger(), *(Stranger(trouble, trouble) for trouble in ("fails", "refuses"))]
     rows = match(questions(at_once, [0.5])) + match(questions([Stranger("creeps", "creeps")], [0.5]), limit=0.2)
-    assert [r.label for r in rows] == ["Stranger", "fails", "refuses", "creeps"]
     assert [r.r0.value is None for r in rows] == [False, True, True, True]
     assert "no luck" in rows[1].reason
     assert rows[3].reason == "time limit: not finished after 0.2 s"
-    assert rows[1].r0.theory == rows[0].r0.theory
     assert all(f.stat().st_size > 100 for f in write_match(rows, tmp_path))
     (tmp_path / "work-precision-first-order.png").write_text("of an earlier match")
     assert {*write_match(rows, tmp_path)} == {*tmp_path.iterdir()}

@@ -37,8 +37,7 @@ def test_nothing_is_cut_off_and_the_largest_values_are_marked_with_their_numbers
     assert mark.get_ydata()[0] == pytest.approx(1e-6 * known["value"], rel=within)
     assert any("largest" in text.get_text() and "±" in text.get_text() for text in stress.texts)
     assert ("largest" in " ".join(text.get_text() for text in push.texts)) == (case.impact.wall_stiffness is not None)
-    for axis in (push, stress, zone):
-        assert axis.get_xlim()[0] == 0.0
+    assert {axis.get_xlim()[0] for axis in (push, stress, zone)} == {0.0}
     said = float(re.fullmatch(r"heights × ([\d.,]+)", shapes.get_title(loc="right"))[1].replace(",", ""))
     box, (left, right), (low, high) = shapes.get_window_extent(), shapes.get_xlim(), shapes.get_ylim()
     drawn = box.height / (high - low) / (box.width / (right - left))

@@ -1,6 +1,5 @@
 """``bentbeam predict``: theory beside a simulation of the whole beam, and the whole impact."""
 
-import json
 import re
 from dataclasses import replace
 from pathlib import Path
@@ -79,7 +78,6 @@ def test_a_beam_of_no_damping_keeps_waves_that_grid_viscosity_absorbs_and_its_ba
 def test_a_rod_under_its_weight_leaves_with_what_is_known_of_it(tmp_path: Path) -> None:
     """0.6324 of its velocity, 0.6298 without shear."""
     document = predict_case(load_case(rod(tmp_path, element=0.02), ["impact.gravity=9.81"]), [1e-4, 1e-3]).to_dict()
-    assert json.loads(json.dumps(document, allow_nan=False)) == document
     restitution, largest = (document["whole_impact"][name] for name in ("restitution", "peak_stress"))
     assert restitution["value"] == pytest.approx(0.6324, abs=5e-4) and restitution["error"] < 1e-2
     early, late = (row["simulation"]["peak_stress"] for row in document["times"])

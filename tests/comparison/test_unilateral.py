@@ -10,7 +10,6 @@ from bent_beam import Impact
 from exudyn_models import ExudynModel
 from hermite_fe import HermiteFE
 
-AFTER = 0.005  # T*, from when on an end may be heard
 # κ/ν, load in V₀/T* and dampings (T*; steel damps a little) of the beams, instants, what is let pass: of the largest
 # push that a node is pulled by, of the energy that is gained, and that is missing from the budget
 PATHS = {
@@ -33,7 +32,7 @@ def drawn(path, generator):
 def check(path, impact, refine=1.0):
     *_, save, (pull, gain, defect) = PATHS[path]
     history = path(refine=refine).simulate(impact, end_time=0.5 * impact.slow_time_scale, save=save)
-    late = history.time[:-1] >= AFTER * impact.slow_time_scale
+    late = history.time[:-1] >= 0.005 * impact.slow_time_scale  # from when on an end may be heard
     gathered = np.diff(history.array("impulse"), axis=0)[late]  # by a node between two saved instants
     assert -gathered.min(initial=0.0) <= pull * gathered.max(initial=0.0)
     assert np.ptp(history.array("held_impulse")[:-1][late]) == 0.0
