@@ -4,7 +4,6 @@ import dataclasses
 import json
 import math
 import os
-from typing import Any
 
 import numpy as np
 import pytest
@@ -151,8 +150,6 @@ def test_the_command_gives_numbers_with_bars_figures_and_the_stress_of_the_large
     assert impulse == pytest.approx(momentum * (1.0 + restitution), rel=1e-6)
     for key in ("value", "error"):
         assert found["peak_stress"][key] == pytest.approx(found["si"]["peak_moment"][key] / modulus, rel=1e-12)
-    assert found["si"]["peak_moment_time"]["value"] > 0.0
-    assert 0.0 <= found["si"]["peak_moment_place"]["value"] <= 0.5
 
 
 def test_the_runs_of_a_band_are_coarser_of_many_sizes_and_of_the_contact_and_integrator_that_are_stated() -> None:
@@ -248,7 +245,7 @@ def test_a_straight_bar_on_a_soft_wall_leaves_as_a_mass_on_a_spring_does(velocit
     bar = Impact(1.0, 1.0, 2.0, 0.0, velocity, damping=1e-2, acceleration=weight)
     found = bounce(bar.replace(wall_stiffness=omega**2, wall_damping=2.0 * zeta * omega), COARSE)
 
-    def push(_: float, state: Any) -> float:
+    def push(_, state):
         return omega**2 * state[0] + 2.0 * zeta * omega * state[1]
 
     push.terminal, push.direction = True, -1.0  # type: ignore[attr-defined]

@@ -5,8 +5,6 @@ import random
 import re
 from dataclasses import replace
 from functools import partial
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -34,7 +32,7 @@ from theory import contact_parameters
 SEED = 20261123
 
 
-def drawn(uniform: Any, kind: int, *laid_over: str) -> Case:
+def drawn(uniform, kind: int, *laid_over: str) -> Case:
     """A tube before a rigid wall, an elastic one, under tension, or an elastic bow that falls; any damping."""
     said = {"beam.length": uniform(1.0, 5.0), "beam.sagitta": 10.0 ** uniform(-3.5, -2.0), "impact.gravity": 0.0}
     said |= {"beam.damping_ratio": 10.0 ** uniform(-2.5, -1.0), "impact.velocity": 10.0 ** uniform(-0.7, 0.5)}
@@ -45,7 +43,7 @@ def drawn(uniform: Any, kind: int, *laid_over: str) -> Case:
     return load_case(CASES / "tube.toml", [*(f"{key}={value!r}" for key, value in said.items()), *laid_over])
 
 
-def same(one: dict[str, Any], other: dict[str, Any]) -> bool:
+def same(one, other) -> bool:
     return (one["value"], one["error"]) == (other["value"], other["error"])
 
 
@@ -215,7 +213,7 @@ def test_waves_that_are_back_from_the_ends_are_told_from_a_hundredth_of_t_star_o
     assert told == [[], ["waves reflected at the beam's ends are back from 0.01 s on"]]
 
 
-def test_a_case_may_be_asked_by_its_tables_and_answers_be_written_to_a_folder_by_name(tmp_path: Path) -> None:
+def test_a_case_may_be_asked_by_its_tables_and_answers_be_written_to_a_folder_by_name(tmp_path) -> None:
     tables = read_toml(CASES / "tube.toml", "case file")
     asked = predict(tables, 1e-4, theory_only=True), predict(CASES / "tube.toml", 1e-4, theory_only=True)
     assert asked[0].to_dict() == asked[1].to_dict()

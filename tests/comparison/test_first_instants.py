@@ -2,7 +2,6 @@
 
 import json
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -10,7 +9,6 @@ import pytest
 from benchmarks.figures.moment import FOLDER, KAPPAS, PATHS, MeasuredMoment, measure_moment
 from bent_beam import Impact, ImpactHistory, SimulationError
 from bent_beam.measure.moments import first_front
-from bent_beam.measure.numbers import Number
 from bent_beam.measure.reduction import peak_moment
 from bent_beam.meshes import UniformMesh
 from comparison.bouncing import case_of
@@ -28,7 +26,7 @@ from theory import peak_moment as largest_moment
 from theory import predict
 
 
-def simulated(end: float, kappa_over_nu: float, **beam: Any) -> list[ImpactHistory]:
+def simulated(end: float, kappa_over_nu: float, **beam: float) -> list[ImpactHistory]:
     """By Hermite elements and by Exudyn, at half the resolution, up to ``end``, T* of the beam of half length 1."""
     impact, methods = Impact.whole_beam(kappa_over_nu).replace(**beam), (HermiteFE(refine=0.5), ExudynModel(refine=0.5))
     return [method.simulate(impact, end_time=end, save=100) for method in methods]
@@ -56,7 +54,7 @@ def test_on_one_mesh_with_one_contact_law_both_codes_give_the_same_gaps_node_by_
     assert ours.array("total_impulse")[-1] == pytest.approx(theirs.array("total_impulse")[-1], rel=impulse)
 
 
-def numbers(impact: Impact, until: float, path: str = "hermite", **more: Any) -> dict[str, Number]:
+def numbers(impact: Impact, until: float, path: str = "hermite", **more: object) -> dict:
     """What ``simulate`` says of a time, with bars, on a mesh and by parts that are chosen unless given."""
     return simulate_case(replace(case_of(impact), **more), path, until=until).numbers
 

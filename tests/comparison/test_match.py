@@ -6,7 +6,6 @@ from dataclasses import replace
 from functools import cache
 from itertools import product
 from types import SimpleNamespace
-from typing import Any
 
 import pytest
 from here import CASES
@@ -234,8 +233,7 @@ def test_the_default_rows_are_the_cases_of_the_thesis_that_touch_with_a_zone() -
 def test_runs_of_first_order_change_the_free_motion_by_a_small_part(front) -> None:
     """Of V₀t at the end, at z, a little beyond the front; less where the front is near the middle."""
     z, part = front + (1.0 + front**2) ** -0.5, 0.05 * front / (front + 0.2)
-    leading: Any = SimpleNamespace(front=front)
-    epsilon = first_order_epsilon(leading, (-1.0, 5.0, -3.0, 0.1), 0.05, 0.1)
+    epsilon = first_order_epsilon(SimpleNamespace(front=front), (-1.0, 5.0, -3.0, 0.1), 0.05, 0.1)
     assert epsilon * 0.1 * (1.0 / 2.0 + 5.0 * z**4 / 24.0 + 3.0 * z**2 / 2.0 + 0.1 / 2.0) == pytest.approx(part)
 
 

@@ -1,8 +1,6 @@
 """Who extends the project, or looks for a key, is told in one sentence what is wrong."""
 
-import tomllib
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -74,11 +72,10 @@ def test_what_is_said_twice_or_has_no_effect_is_refused_by_its_name() -> None:
     assert load_case(TUBE, [*both[:2], "hermite.mesh.kind=auto"]).method("hermite").mesh == UniformMesh(0.05)
 
 
-def test_a_newcomer_starts_from_an_example_and_finds_a_key(tmp_path: Path):
+def test_a_newcomer_starts_from_an_example_and_finds_a_key(tmp_path):
     file = tmp_path / "mine.toml"
     assert answered("new", file, "--like", "tube") == {"file": str(file), "like": "tube"}
     assert load_case(file).impact == load_case(TUBE).impact
-    assert tomllib.loads(file.read_text())["section"]["outer_diameter"] == 0.05
     assert "did you mean tube?" in refused("new", tmp_path / "other.toml", "--like", "tub")
     assert "--like" in refused("new", tmp_path / "other.toml", "--like", "tube", "--section", "pipe")
     found = answered("settings", "loss_factor")

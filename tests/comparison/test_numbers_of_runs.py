@@ -106,10 +106,8 @@ def test_what_a_run_and_its_companion_share_stays_in_the_bar() -> None:
         assert number.bar == pytest.approx(bar, rel=1e-6, abs=0.0), (eta, kappa)
 
 
-def last_contact(one, other, **change) -> Number:
-    number = whole_numbers(whole(one, other, **change))["last_contact"]
-    assert isinstance(number, Number)
-    return number
+def last_contact(one, other, **change):
+    return whole_numbers(whole(one, other, **change))["last_contact"]
 
 
 @pytest.mark.parametrize(("other", "shift"), [((0.3, 0.5), 0.0), ((0.35, 0.45), 0.05), ((0.8, None), 0.2)])
