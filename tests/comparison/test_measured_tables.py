@@ -122,8 +122,7 @@ RESTITUTIONS = [
 @pytest.mark.verify
 @pytest.mark.parametrize(("method", "kappa", "damping", "cell", "least"), RESTITUTIONS)
 def test_a_run_gives_the_restitution_of_the_page(method, kappa, damping, cell, least):
-    """To the last digit of the cell; where that is the fourth, to what rounding changes, which differs between
-    processors and which hits that follow one another amplify (seen: 2.5e-4)."""
+    """To the last digit of the cell; where that is the fourth, to the round-off that hits amplify (seen: 2.5e-4)."""
     value, unit = stated(cell)
     within = max(1.01 * unit, 3e-4 if 0.99e-4 < unit < 1.01e-4 else least)
     impact = Impact.whole_beam(float(kappa), relative_damping=stated(damping)[0])
