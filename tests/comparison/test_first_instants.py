@@ -112,6 +112,13 @@ def test_a_run_too_short_for_its_damping_stops() -> None:
         ExudynModel().simulate(Impact.whole_beam(0.3, relative_damping=1e-3), end_time=1e-7, save=10)
 
 
+def test_few_saved_instants_move_no_front() -> None:
+    history = HermiteFE().simulate(Impact.whole_beam(0.3), end_time=0.002, save=[0.0002, 0.002])
+    theory = predict(history.impact, [0.002]).times[0].half_contact_length
+    assert first_front(history, history.time[-1])[0] == pytest.approx(theory, rel=2e-3)
+    assert first_front(history, 0.0) == (0.0, 0.0)
+
+
 def test_a_zone_that_its_scheme_throws_off_the_wall_is_pushed_too_hard_and_the_bar_says_so() -> None:
     """A companion that is thrown off alike does not show it. A damped beam lifts off by itself: no bar for that."""
     impact, end = Impact.whole_beam(0.06), 0.0025
