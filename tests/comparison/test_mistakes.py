@@ -12,6 +12,7 @@ import hermite_fe
 from bent_beam import Impact, InputError
 from bent_beam.cases import EXAMPLES, load_case
 from bent_beam.meshes import UniformMesh
+from bent_beam.method import method_from_tables
 from comparison import bounce, match, predict, sweep
 from exudyn_models import ExudynModel
 from hermite_fe import HermiteFE
@@ -46,6 +47,7 @@ class Mute(MoreauJean):
         (lambda: HermiteFE().simulate(TUBE, end_time=0.01), r"impact must be a .*, as load_case\(…\).impact"),
         (lambda: exudyn_models.simulate(3), r"impact must be a bent_beam.Impact, .*\(got 3\)"),
         (lambda: exudyn_models.build(TUBE), "impact must be a bent_beam.Impact"),
+        (lambda: method_from_tables("exudyn", {"integrator": {"rho": 0.9}}), "integrator.rho is not a known setting"),
         (lambda: ExudynModel(mesh=3), r"mesh must be an instance of Mesh \(got 3\)"),
         (lambda: HermiteFE(contact=Light()).simulate(IMPACT, end_time=0.01), r"weights .* add up to one .*\(got 0.8\)"),
         (lambda: HermiteFE(integrator=Mute()).simulate(IMPACT, end_time=0.01), "Mute.advance must return .*got None"),
