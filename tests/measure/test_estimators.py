@@ -75,13 +75,11 @@ def test_a_zone_thrown_off_the_wall_may_have_been_pushed_that_much_too_hard(lift
     found = leading_order(reduced, companions=[reduced])
     assert found.lift == lift
     assert found.r0.parts["lift"] == pytest.approx(min(lift / 0.1, 1.0) * lift * found.r0.value, rel=6e-3)
-    assert found.lambda0.parts["lift"] == pytest.approx(
-        estimators.INSIDE * min(lift / 0.1, 1.0) * lift * found.lambda0.value
-    )
+    inside = estimators.INSIDE * min(lift / 0.1, 1.0) * lift
+    assert found.lambda0.parts["lift"] == pytest.approx(inside * found.lambda0.value)
     short = leading_order(dataclasses.replace(reduced, moment=0.05 * SIDE * tau)).lambda0
-    assert short.known < 0.06 and short.parts["least"] == pytest.approx(
-        estimators.LEAST_LEADING * 0.1
-    )  # of 0.1 at least
+    least = estimators.LEAST_LEADING * 0.1  # of 0.1 at least
+    assert short.known < 0.06 and short.parts["least"] == pytest.approx(least)
 
 
 def test_the_first_moment_is_that_of_where_the_pushes_were():
