@@ -92,14 +92,14 @@ def printed(file: Path) -> dict[str, Number]:
     return {name: number for name, number in numbers.items() if number.measured}
 
 
-def references(file: Path) -> list[dict[str, float]]:
+def references(file: Path) -> list[dict[str, float | None]]:
     """The same numbers from runs :data:`FINER`, by the contact law that is chosen and by another.
 
     At velocity level a node stays as deep in the wall as the step in which it arrived left it. Where one point touches,
     neighbours on elements so small then push, too: the moment of one point is that of the law at the position alone.
     """
     case = load_case(file)
-    impact, end, found = case.impact, float(case.end_time), list[dict[str, float]]()
+    impact, end, found = case.impact, float(case.end_time), list[dict[str, float | None]]()
     whole = Question(impact, case.method("hermite"))
     timed, whole = replace(whole, until=end), replace(whole, save=2 * OF_UNIT)  # surer of times than what is judged
     chosen = [for_whole_beam(refined(one.run_by, FINER), impact) for one in (timed, whole)]
@@ -115,7 +115,7 @@ def references(file: Path) -> list[dict[str, float]]:
             reading = whole_reading(whole.run(methods[1]))
             values |= {name: reading[name] for name in {*OF_THE_WHOLE} & {*NUMBERS, "peak_force"}}
         deep = impact.kappa_over_nu >= 1.0 and isinstance(methods[0].integrator, MoreauJean)
-        found.append({name: value for name, value in values.items() if not (deep and name.startswith("peak_moment"))})
+        found.append(values | {name: None for name in values if deep and name.startswith("peak_moment")})
     return found
 
 
@@ -127,7 +127,7 @@ def points_of(row: int, stratum: str, file: Path) -> list[Point]:
         return []
     found = []
     for name, number in numbers.items():
-        others = [one[name] for one in values if one.get(name) is not None]
+        others = [one[name] for one in values if one[name] is not None]
         unit = max(abs(number.known), 1e-3)
         error = max((abs(number.known - other) for other in others), default=math.inf)
         kappa = load_case(file).impact.kappa_over_nu

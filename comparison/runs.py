@@ -199,7 +199,7 @@ def _least_of_rebound(impact: Impact) -> float:
 
 def unseen_of_moment(runs: Runs) -> dict[str, float]:
     """Errors of the largest moment that no companion shows, by cause: what it may have been in first instants that no
-    mesh resolves; what a push spread over less than an element takes from it; what single nodes add to it where the
+    mesh resolves; how a push on one point spreads within an element, and beside it; what single nodes add where the
     beam does not converge, or on a zone with hardly any damping once waves have run along the beam."""
     reading, impact = runs.run.reading, runs.question.impact
     hardly = _is_light(runs.question) and impact.kappa_over_nu < 1.0 and impact.wall_stiffness is None

@@ -27,7 +27,7 @@ class Instant:
     half_contact_length : of the rim of what pushes, m; none where nothing does (of first instants 0). reaction :
     mean force of the wall over a tenth of the time before and after, N. impulse : N s. peak_moment,
     peak_moment_place, peak_moment_time : the largest moment of all steps so far, N m, m, s; moment_left_out : what
-    it may have been at first, moment_spread : how much smaller it may be (:mod:`bent_beam.measure.reduction`).
+    it may have been at first, moment_spread : by how much it may be off (:mod:`bent_beam.measure.reduction`).
     peak_force, peak_penetration, peak_pressure : of a wall that gives way, so far, the force with its time, s, mean
     |x|, m, wall ("front", "opposite") and how sharp it is, N (:class:`bent_beam.measure.reduction.WallPeaks`); the
     pressure not of a stop. impulse_around : at ``SHARES_AROUND`` of the time, N s. element : length of the one at the

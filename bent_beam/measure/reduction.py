@@ -25,8 +25,8 @@ class PeakMoment(NamedTuple):
     """Largest bending moment, N m (its size), its place, m, x or of a symmetric impact |x|, and its time, s: of all
     steps the middle of its saved interval, else the saved instant.
 
-    midspan : the largest at x = 0, N m. spread : how much smaller it may be, N m, as its push spreads over less than an
-    element."""
+    midspan : the largest at x = 0, N m. spread : by how much it may be off, N m, as the push on one point spreads over
+    less than an element, or over its neighbours."""
 
     moment: float
     place: float
@@ -189,9 +189,10 @@ def moment_left_out(history: ImpactHistory, until: float | None = None) -> float
 def _spread(history: ImpactHistory, peak: PeakMoment) -> float:
     """`PeakMoment.spread`. Before a rigid wall a beam that shears is flat over b on either side of the point that it
     touches, where the slope of its shear makes up for what its bending leaves of the curvature: with a push P = 2bp,
-    p/κ_sGA = (M_flat − M)/EI, and M is less by Pb/4. From half an element on, nodes show b. Where contact may enter the
-    wall, neighbours of the point push, too, as soon as they are nearer to it than it is deep: N at the distance of an
-    element takes half of N times that from M. P and N are means over :data:`PUSH_TIME` about the time."""
+    p/κ_sGA = (M_flat − M)/EI, and M is less by Pb/4. From half an element on, nodes show b. Neighbours push
+    beside the point, or in its place, where contact may enter the wall or the point has just lifted: N at the distance
+    of an element takes half of N times that from M, of which Pb/4 is right, P being the push of all three. Pushes are
+    means over :data:`PUSH_TIME` about the time."""
     impact, time = history.impact, history.time
     if impact.shear_stiffness is None or impact.wall_stiffness is not None or time.size < 2:
         return 0.0

@@ -48,7 +48,7 @@ class WholeImpact:
         contact, last_push is its impulse over mV₀, a velocity over V₀. returns : when the beam is nearest to the wall
         again, within a period after the last contact, and the mean velocity since then by which it misses the wall, V₀.
     peak_moment_place : x/ℓ, of a symmetric impact |x|/ℓ. moment_left_out : what the moment may have been at
-        first, moment_spread : how much smaller it may be (:mod:`bent_beam.measure.reduction`).
+        first, moment_spread : by how much it may be off (:mod:`bent_beam.measure.reduction`).
     translation, vibration, dissipated : shares of the initial energy and the work of the loads, altogether one; the
         rotation of a beam that rocks counts as vibration.
     peak_force : on the zone of a wall that gives way, over μℓV₀/T*, with its time and its mean |x|/ℓ; ``None`` of a

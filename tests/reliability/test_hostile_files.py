@@ -12,6 +12,7 @@ from called import CASE, command, refused
 
 import hermite_fe
 from bent_beam import Impact, ImpactHistory
+from bent_beam.cases import EXAMPLES
 from bent_beam.meshes import UniformMesh
 from comparison.compare import rerun_history
 from hermite_fe.integrators import SignoriniPosition
@@ -204,6 +205,7 @@ def test_tables_nested_without_end_are_refused_in_one_line(table, tmp_path):
 
 EVIL = "\x1b]0;x\x07\x9b31m\u202e<script>alert(1)<|script>"
 OUT = [("predict {evil}.toml", 2), ("score {evil}.npz --json", 2), ("new {evil}/x.toml", 0)]
+OUT += [(f"predict {EXAMPLES}/tube.toml --json --set impact.velocity={{evil}}", 2)]
 
 
 @pytest.mark.parametrize(("words", "code"), OUT)

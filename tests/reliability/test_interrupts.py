@@ -110,6 +110,7 @@ READERS = {  # which raise for half of a file
     ".nc": lambda content: h5py.File(io.BytesIO(content))["gap"][()],
     ".png": lambda content: Image.open(io.BytesIO(content)).load(),
 }
+READERS[".gif"] = READERS[".png"]
 ENDS = {".html": b"</html>", ".pdf": b"%%EOF"}
 
 

@@ -26,6 +26,9 @@ def test_everything_is_drawn_without_errors_or_requests_and_nothing_overflows_or
     cells = "[...document.querySelectorAll('#summary-table td, #leading-table td, #pipe-table td')]"
     assert ask(browser, f"{cells}.filter(e => e.offsetParent === null).length") == 0  # no column is lost on a phone
     assert ask(browser, "[...document.querySelectorAll('td.path a')].map(e => e.offsetParent !== null)") == [True]
+    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})  # paper has no controls
+    assert ask(browser, "[...document.querySelectorAll('.plot')].every(e => e.offsetParent === null)")
+    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
     assert_quiet(browser)
 
 
