@@ -16,6 +16,7 @@ OF_RUN, OF_BEAM = 0.02, 0.002  # see _first_resolved
 RESOLVED = 10.0  # elements that a bending wave must have passed before a moment is one of the beam, not of its mesh
 SMOOTH = 3.0  # elements within √(cη), c = √(EI/μ): so many follow the start of a damped beam within 3 %
 WALLS = {"front": "impulse", "opposite": "opposite_impulse"}  # the impulses of their contact points
+BESIDE = 2.5  # elements: so far from a point its neighbours may push in its place
 PUSH_TIME, OF_TIME = 1e-3, 0.05  # T*, and of the time itself: before and after it, a push is a mean over the shorter
 MAY_BE_HELD = 0.01  # of the run: while this lasts, a start may be held
 LANDING = 1e-4  # of a force that does not stand out from those beside it, as one at a landing: its least error
@@ -88,7 +89,7 @@ def _sharpness(history: ImpactHistory, when: float) -> float:
     near, far = (float(forces[2] - 0.5 * (forces[2 - i] + forces[2 + i])) for i in (1, 2))
     if near <= 0.0:
         return 0.0
-    order = min(max(math.log2(max(far / near, 1.0)), 1.0), 2.0)
+    order = min(math.log2(max(far / near, 2.0)), 2.0)
     return near * min(float(history.time[-1]) / max(history.steps, 1) / float(spans[2]), 1.0) ** order
 
 
@@ -189,23 +190,24 @@ def moment_left_out(history: ImpactHistory, until: float | None = None) -> float
 def _spread(history: ImpactHistory, peak: PeakMoment) -> float:
     """`PeakMoment.spread`. Before a rigid wall a beam that shears is flat over b on either side of the point that it
     touches, where the slope of its shear makes up for what its bending leaves of the curvature: with a push P = 2bp,
-    p/κ_sGA = (M_flat − M)/EI, and M is less by Pb/4. From half an element on, nodes show b. Neighbours push
-    beside the point, or in its place, where contact may enter the wall or the point has just lifted: N at the distance
-    of an element takes half of N times that from M, of which Pb/4 is right, P being the push of all three. Pushes are
-    means over :data:`PUSH_TIME` about the time."""
+    p/κ_sGA = (M_flat − M)/EI, and M is less by Pb/4. From half an element on, nodes show b. Nodes within
+    :data:`BESIDE` may push beside the point, or in its place, where contact enters the wall or the point has just
+    lifted: each takes half of its push times its distance from M. Of all of it Pb/4 is right, P being the push of all.
+    Pushes are means over :data:`PUSH_TIME` about the time."""
     impact, time = history.impact, history.time
     if impact.shear_stiffness is None or impact.wall_stiffness is not None or time.size < 2:
         return 0.0
     half = min(PUSH_TIME * impact.slow_time_scale, OF_TIME * peak.time)
     first = max(int(np.searchsorted(time, peak.time - half, side="right")) - 1, 0)
     last = max(min(int(np.searchsorted(time, peak.time + half)), time.size - 1), first + 1)
-    away = np.abs(history.contact_positions(last) - peak.place)
+    x, impulse = history.contact_positions(last), history.array("impulse", slice(first, last + 1))
+    pushes = (impulse[-1] - impulse[0]) / float(time[last] - time[first])
+    away = np.abs(x - x[np.argmin(np.abs(x - peak.place))])
+    if history.sides == 1:  # the other half pushes as well; the middle is a half of its node
+        away, pushes = np.concatenate((away, np.abs(-x - x[np.argmin(away)]))), np.tile(pushes, 2)
     element = element_at(history, last, peak.place - impact.first_touch)
-    node, beside = away <= away.min(), np.abs(away - away.min() - element) < 0.5 * element
-    impulse = history.array("impulse", slice(first, last + 1))
-    copies = 2.0 / history.sides if peak.place <= 0.5 * element else 1.0
-    pushes = copies * (impulse[-1] - impulse[0]) / float(time[last] - time[first])
-    push, neighbours = max(float(pushes[node].sum()), 0.0), max(float(pushes[beside].sum()), 0.0)
+    near = away <= BESIDE * element
+    push, total = (max(float(pushes[those].sum()), 0.0) for those in (away == 0.0, near))
     flat = impact.bending_stiffness * (impact.unbent_curvature - impact.wall_curvature)
     twice_p = 2.0 * impact.shear_stiffness * max(flat - peak.moment, 0.0) / impact.bending_stiffness
     begin, end = impact.wall_span
@@ -213,8 +215,7 @@ def _spread(history: ImpactHistory, peak: PeakMoment) -> float:
     spread = 0.25 * push * (push / twice_p if push < twice_p * widest else widest)
     if not twice_p:
         return spread
-    total = push + neighbours
-    return spread + max(0.5 * neighbours * element - 0.25 * total * (total / twice_p), 0.0)
+    return spread + max(0.5 * float(pushes[near] @ away[near]) - 0.25 * total * (total / twice_p), 0.0)
 
 
 def _first_resolved(history: ImpactHistory, count: int) -> int:

@@ -158,8 +158,10 @@ def test_what_springs_of_the_wall_hold_is_not_lost(again) -> None:
     ("changed", "moment", "element", "spread"),
     [
         ({}, 1.2, 0.3, 0.008),  # p = κ_sGA (2 − 1.2)/EI = 160 N/m, 2b = P/p = 0.02 m, Pb/4
-        ({"beside": 0.5}, 1.2, 0.3, 0.002 + 0.24 - 0.008),  # neighbours push 1.6 N, N times half an element
-        ({"beside": 0.5}, 1.2, 0.004, 0.0008),  # less than they should
+        ({"shares": [0.5, 0.5]}, 1.2, 0.3, 0.002 + 0.24 - 0.008),  # neighbours push 1.6 N, at half of 0.3 m
+        ({"shares": [0.5, 0.2, 0.2, 0.1]}, 1.2, 0.3, 0.002 + 0.096 + 0.16 + 0.112 - 0.008),  # each at its distance
+        ({"shares": [0.0, 0.0, 0.5, 0.0, 0.5]}, 1.2, 0.3, 0.4 - 0.002),  # the last is contact somewhere else
+        ({"shares": [0.5, 0.5]}, 1.2, 0.004, 0.0008),  # less than they should
         ({}, 1.2, 0.004, 0.0016),  # nodes show what is wider than an element
         ({}, 2.0, 0.004, 0.0016),  # flat by its moment alone
         ({}, 1.9999, 0.004, 0.0016),
@@ -170,14 +172,30 @@ def test_what_springs_of_the_wall_hold_is_not_lost(again) -> None:
     ],
 )
 def test_a_push_on_one_point_of_a_sheared_beam_spreads_over_less_than_an_element(changed, moment, element, spread):
-    """EI = 2 N m², a push of 3.2 N, by half of the beam; a share of it ``beside`` the point, where contact is soft."""
+    """EI = 2 N m², a push of 3.2 N, by half of the beam; shares of it beside the point, where contact is soft."""
     changed = changed.copy()
-    push, beside = 1.6 * changed.pop("velocity", 1.0), changed.pop("beside", 0.0)
+    push, shares = 1.6 * changed.pop("velocity", 1.0), np.array([*changed.pop("shares", [1.0]), *[0.0] * 4][:5])
     beam = Impact(2.0, 1.0, 2.0, 0.5, 1.0, shear_stiffness=400.0, wall_curvature=-0.5).replace(**changed)
     time, x = np.linspace(0.0, 1.0, 101), np.array([0.0, element, 0.5, 0.7, 1.0])
-    moments, shares = np.where(np.arange(101) == 50, moment, 0.1), np.array([1.0 - beside, beside, 0.0, 0.0, 0.0])
+    moments = np.where(np.arange(101) == 50, moment, 0.1)
     run = recorded(time, push * time[:, None] * shares, x=x, impact=beam, moment=moments)
     assert peak_moment(run)[::4] == (moment, pytest.approx(spread))
+
+
+@pytest.mark.parametrize("place", [0.0, 0.1, 0.2])
+def test_a_push_beside_a_point_is_one_of_both_halves(place: float) -> None:
+    """A pair stands for the pushes of one half and of its mirror image, wherever the largest moment is."""
+    time, x, shares = np.linspace(0.0, 1.0, 101), np.array([0.0, 0.1, 0.2, 0.5]), np.array([0.4, 0.3, 0.1, 0.2])
+    beam = Impact(2.0, 1.0, 2.0, 0.5, 1.0, shear_stiffness=400.0, wall_curvature=-0.5)
+    moment = np.where(np.arange(101) == 50, 1.2, 0.1)
+    told = {"impact": beam, "moment": moment, "largest_moment_place": place + 0.0 * time}
+    both, mirrored = np.r_[-x[:0:-1], x], np.r_[shares[:0:-1], 2.0 * shares[:1], shares[1:]]
+    half = recorded(time, np.outer(time, shares), x=x, **told)
+    full = recorded(time, np.outer(time, mirrored), x=both, symmetry="full", **told)
+    near, away = np.abs(both - place) < 0.25, np.abs(both - place)
+    beside = 0.5 * mirrored[near] @ away[near] - 0.25 * mirrored[near].sum() ** 2 / 320.0
+    expected = beside + 0.25 * mirrored[both == place].item() ** 2 / 320.0
+    assert [peak_moment(run).spread for run in (half, full)] == pytest.approx([expected, expected], rel=1e-12)
 
 
 def test_a_moment_counts_once_a_wave_has_passed_ten_of_the_shortest_elements() -> None:
