@@ -10,6 +10,7 @@ from bent_beam.checks import affordable
 from bent_beam.errors import SimulationError
 from bent_beam.fields import Quantity, declared
 from bent_beam.loads import loads_of, unmodelled
+from bent_beam.method import time_on_wall
 from bent_beam.tables import TABLES
 
 THESIS = dict(bending_stiffness=1.0, mass_per_length=1.0, length=50.0, curvature=10.0, velocity=20.0)
@@ -134,3 +135,17 @@ def test_a_stop_s_dashpot_slows_at_once_a_beam_that_shears_and_has_no_damping_of
     forces = [4.0, 4.0 / (1.0 + 4.0 / 40.0), 4.0 / (1.0 + 4.0 / 20.0), 4.0, 4.0]
     kinds = (middle, sheared, end, sheared.replace(damping=1e-6), sheared.replace(wall_to=0.5))
     assert [impact.damping_at_landing for impact in kinds] == pytest.approx(forces)
+
+
+def test_a_straight_bar_is_on_its_wall_for_half_a_period_and_a_bow_as_long_as_hertz_has_it() -> None:
+    """m δ'' = −k∫(δ − Kx²/2)dx, which is (4/3)k√(2/K) δ^{3/2}: on the wall for 2∫dδ/δ' until δ' = 0."""
+    bar = Impact(1.0, 3.0, 2.0, 0.0, 1.5).replace(wall_stiffness=8.0)
+    assert time_on_wall(bar) == pytest.approx(math.pi * math.sqrt(6.0 / 16.0))
+    bow = bar.replace(curvature=200.0)  # no longer than that where it lies on all of its wall
+    x, depth, velocity, time, step = np.linspace(0.0, 1.0, 401), 0.0, 1.5, 0.0, 1e-3
+    while depth >= 0.0:
+        force = 8.0 * 2.0 * float(np.trapezoid(np.maximum(depth - 100.0 * x**2, 0.0), x))
+        velocity -= step * force / 6.0
+        depth, time = depth + step * velocity, time + step
+    assert time_on_wall(bow) == pytest.approx(time, rel=2e-3)
+    assert time_on_wall(bow.replace(wall_stiffness=None)) == 0.0

@@ -53,6 +53,8 @@ def test_steps_grow_with_time_and_cover_the_run_none_shorter_but_for_a_round_num
         room = 1.0 + 1.0 / after.steps
         assert before.length <= after.length * room and after.length <= relative * after.start * (1.0 + 1e-9)
     assert found[0].length <= first * (1.0 + 1e-9)
+    even, growing = 1.0 / relative, math.log(max(relative / first, 1.0)) / relative  # steps that follow t alone
+    assert sum(one.steps for one in found) < 1.3 * (even + growing)
 
 
 def test_a_run_that_is_twice_as_fine_has_half_the_steps_and_elements_and_one_that_measures_a_load_shorter_steps():
