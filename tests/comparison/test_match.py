@@ -189,6 +189,8 @@ def test_every_shipped_list_can_be_asked_for_and_those_of_all_pairs_hold_every_i
         ("[[metod]]\npath = 1", "did you mean method"),
         ("[[method]]\nlabel = 1\npath = 'hermite'", "label must be"),
         ("[[method]]\nlabel = 'x'", "path is required"),
+        ("[[method]]\nlabel = ''\npath = 'hermite'", "label must be"),
+        (f"[[method]]\nlabel = '{'x' * 81}'\npath = 'hermite'", "label must be"),
         ("[[method]]\npath = 'hermit'", "did you mean hermite"),
     ],
 )
@@ -197,6 +199,9 @@ def test_a_bad_methods_file_is_refused_in_one_line(tmp_path, text, message):
     file.write_text(text)
     with pytest.raises(InputError, match=message):
         methods_from_file(file)
+    for label in ("x", "x" * 80):
+        file.write_text(f"[[method]]\nlabel = '{label}'\npath = 'hermite'")
+        assert methods_from_file(file)[0].label == label
 
 
 def test_a_bow_free_of_stress_is_let_go_by_a_tension_as_it_flies() -> None:

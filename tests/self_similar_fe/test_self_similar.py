@@ -11,6 +11,7 @@ from bent_beam.measure.moments import first_front, moments
 from self_similar_fe import ExpandingMesh, SelfSimilarFE
 from self_similar_fe.run import simulate_expanding
 from self_similar_fe.similarity import similarity
+from theory import contact_parameters
 
 EXACT = {  # κ/ν: λ₀, r₀
     1 / 1600: (56.5684099145, 35.4490354773),
@@ -58,6 +59,15 @@ def test_a_nearly_flat_beam():
     lambda0, r0 = EXACT[1 / 1600]
     assert state.front == pytest.approx(lambda0, rel=1e-4)
     assert state.reaction.sum() / SIDE == pytest.approx(r0, rel=1e-4)
+
+
+@pytest.mark.parametrize("kappa_over_nu", [0.8, 0.95])
+def test_a_mesh_is_laid_around_a_front_however_short(kappa_over_nu: float) -> None:
+    """The free beam reaches 20 times as far at κ/ν = 0.95. Elements ahead of the front are a share of 2λ₀."""
+    state = similarity(kappa_over_nu, ExpandingMesh(front_resolution=0.05))
+    assert state.front == pytest.approx(float(contact_parameters(kappa_over_nu).lambda0), rel=2e-3)
+    ahead = np.searchsorted(state.zeta, state.front) + 1
+    assert np.diff(state.zeta)[ahead] == pytest.approx(0.1 * state.front, rel=0.02)
 
 
 def test_energy_of_the_fast_part_is_the_work_of_the_wall(half):
