@@ -32,7 +32,7 @@ class SimulationError(RuntimeError):
 
 def nearest(word: str, known: Iterable[str]) -> str:
     """`` (did you mean …?)`` for a misspelt word, or the list of what is known."""
-    known = sorted(known)
+    known = sorted(set(known))
     close = difflib.get_close_matches(word, known, n=1, cutoff=0.5)
     return f" (did you mean {close[0]}?)" if close else f" (known: {', '.join(known)})"
 

@@ -134,8 +134,8 @@ class Separation:
     def __call__(self, time: float, impulse: float, state: Callable[[], State], *, closed: bool = False) -> bool:
         """Whether the beam has left at ``time`` (s), asked at increasing times.
 
-        impulse : what grows while the wall acts, such as its impulse so far. closed : whether a contact point is,
-            pushing or not.
+        impulse : a measure that grows while the wall pushes, such as its impulse so far. closed : whether any contact
+            point is closed, pushing or not.
         state : gives x, gap, velocity and energy as :func:`cannot_return` takes them; called where they matter.
         """
         if closed or impulse > self.impulse:

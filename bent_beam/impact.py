@@ -96,7 +96,9 @@ class Impact(Scales):
         shear_length l_s over L/2 (0: Euler and Bernoulli's), shear_ratio κ_sG/E (:mod:`bent_beam.scales`)."""
         bare = cls.dimensionless(kappa_over_nu, damping=relative_damping, length=2.0).replace(tension_direction="axis")
         if shear_length == 0.0:
-            return bare.replace(rotary_inertia=shear_ratio)
+            if shear_ratio != 0.0:
+                raise InputError(f"shear_ratio has no effect without shear_length (got {shear_ratio!r})")
+            return bare
         length = positive("shear_length", shear_length)
         return bare.replace(shear_stiffness=length**-2.0, rotary_inertia=shear_ratio * length**2)
 

@@ -3,8 +3,8 @@
     y₀(x, t) = Σ c xⁱtʲ/(i! j!):    V₀ (0, 1),   −K (2, 0),   a₀ (0, 2),   c₀ (2, 1),   q₀ (4, 0)           (2.2.30)
 
 A load is a field of :class:`bent_beam.Impact`, annotated by a :class:`Load`: unit, meaning and range. Its check, its
-key in ``[impact]`` and its line of the page of settings follow from these. With a term of y₀ it has a share of the
-uniform load μ∂²y₀/∂t² + EI ∂⁴y₀/∂x⁴ + N K and of the end forces of y₀; every solver asks :class:`FreeMotion` for these.
+key in ``[impact]`` and its line of the page of settings follow from these. One with ``powers`` is a term of y₀. Every
+solver gets the uniform load μ∂²y₀/∂t² + EI ∂⁴y₀/∂x⁴ + N K and the forces at the ends from :class:`FreeMotion`.
 A load that a :class:`Place` goes with is a force at a point (``Impact.forces``). Theory to first order knows the loads
 that have a ``group``. A solver names the loads and other features that it models in its ``MODELLED``, and refuses the
 rest; theory and what compares with it do so, too (:func:`unmodelled`). How to add one: docs/guide/add-load.md.

@@ -27,7 +27,7 @@ from bent_beam.impact import Impact
 from bent_beam.loads import Array
 
 DEGREE = 80  # of a string whose ends bend over 1/100 of its half length the mode is right to 1e-8
-ROUND_OFF = 1e-3  # of the largest 1/ω²: a negative one beyond is no round-off of the zeros beside it
+ROUND_OFF = 1e-3  # of the largest 1/ω²: a negative one that is larger than this means buckling
 HELD = {"free": (2, 3), "hinged": (0, 2), "clamped": (0, 1)}
 """Which of w, φ, M, Q are 0 at an end."""
 

@@ -32,7 +32,7 @@ def force_and_stress(history: Any) -> Any:
 
 def _draw(axis: Any, history: Any, values: NDArray[np.float64], title: str, unit: str) -> float:
     """Over intervals between saved instants, of which the values are; returns the scale of the axis."""
-    large = unit.startswith("N") and float(np.abs(values).max()) >= 1e3
+    large = unit.startswith("N") and float(np.abs(values).max()) >= 1e2  # as bentbeam writes them
     scale, prefix = (1e-3, "k") if large else (1.0, "")
     axis.plot(1e3 * history.time[1:], scale * values[1:], drawstyle="steps-pre")
     axis.set_xlabel("$t$  (ms)")

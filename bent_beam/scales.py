@@ -42,7 +42,7 @@ class Scales(Part):
     axial_force: Annotated[float, Load("N", "N, tension positive", group="axial")] = 0.0
     tension_direction: Annotated[
         str,
-        Quantity("", "of the axial force at the ends: along x, or along the bow's ends", choices=("axis", "tangent")),
+        Quantity("", "where the axial force points at the ends: along x, or the bow", choices=("axis", "tangent")),
     ] = "axis"
     damping: Annotated[float, Quantity("s", "η, Kelvin–Voigt damping of the beam's own material", least=0.0)] = 0.0
     hysteretic_loss: Annotated[

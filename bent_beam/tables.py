@@ -1,7 +1,7 @@
 """The tables of a case file with fixed fields; :mod:`bent_beam.description` says what they describe.
 
 A beam may be described as its owner knows it. One way or the other, never both: two ways to say the same thing clash,
-and the error names them. A load, or a place, that no table describes otherwise is a key of ``[impact]`` as it is.
+and the error names them. A load, or a place, that has no key of its own is a key of ``[impact]`` by its field's name.
 """
 
 from __future__ import annotations

@@ -97,7 +97,8 @@ class Bounce:
     def in_si(self) -> dict[str, Number | Band]:
         """The numbers in SI units, and the largest stress (:func:`with_stress`)."""
         unit = {"": 1.0, **self.units}
-        found = {name: n.scaled(unit[WHOLE[name].scale]) for name, n in self.numbers.items()}
+        about = ((name, number, WHOLE[name]) for name, number in self.numbers.items())
+        found = {name: number.scaled(unit[one.scale], name=one.unit) for name, number, one in about}
         # shares become J by the energy supplied until the last contact: as loads work on, the bar of its time adds to J
         late = abs(self.outcome.supplied_rate) * (self.numbers["last_contact"].bar or 0.0)
         for name, n in found.items():
@@ -231,7 +232,7 @@ class Bounce:
 
     @property
     def _shown_until(self) -> float:
-        """End of the axes, s; of a beam that comes to lie on the wall while most happens."""
+        """End of the time axis, s; of a beam that comes to lie on the wall, soon after the largest push or moment."""
         outcome = self.outcome
         hardest = max(outcome.peak_moment_time, outcome.push_time)
         last = outcome.last_contact if self.left else min(outcome.last_contact, LYING * (hardest + WINDOW))

@@ -82,8 +82,8 @@ def bounce(
     jobs: int = 1,
     progress: Progress | None = None,
 ) -> Bounce:
-    """Follow a beam to its last separation by ``method``, and by what it names to compare with; where the case states
-    no damping, over :data:`DAMPING_RATIOS`.
+    """Simulate a whole impact, to the last separation, by ``method`` and by the companion runs that it names; where
+    the case states no damping, for :data:`DAMPING_RATIOS`.
 
     runs, seed : of the ensemble, where the beam has no damping. save : saved instants a T*. store : of runs.
     Raises ``ValueError`` for what the method refuses, :class:`bent_beam.SimulationError` when it cannot finish.

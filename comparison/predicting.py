@@ -8,7 +8,7 @@ and ``bounce`` ask (:mod:`comparison.questions`).
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from functools import partial
 from itertools import groupby
 from pathlib import Path
@@ -40,9 +40,9 @@ PATH = "hermite"
 COMPARED = ("half_contact_length", "reaction", "impulse", "peak_moment", "peak_stress")
 """What theory and simulation both say at a time."""
 OF_WHOLE_IMPACT = ("restitution", "last_contact", "peak_moment", "peak_stress", "peak_force", "push")
-OF_INSTANT = ("half_contact_length", "reaction", "impulse", "peak_moment", "peak_force", "peak_penetration",
-              "peak_pressure")  # fmt: skip
-"""Fields of :class:`bent_beam.measure.instant.Instant` that are numbers."""
+OF_INSTANT = {"half_contact_length": "m", "reaction": "N", "impulse": "N s", "peak_moment": "N m", "peak_force": "N",
+              "peak_penetration": "m", "peak_pressure": "N/m"}  # fmt: skip
+"""Fields of :class:`bent_beam.measure.instant.Instant` that are numbers, and their units."""
 
 CHECKED = 24  # instants between a hundredth of the last time and the last, at which theory and simulation are compared
 AGREE = 0.02  # of the theory's number, beyond the error bar
@@ -87,7 +87,8 @@ def instant_numbers(runs: Runs) -> dict[str, Number]:
     if reading["half_contact_length"] is not None:  # a companion without contact has a half length of 0
         name = "half_contact_length"
         runs = runs.part(lambda one: {**one, name: 0.0 if one[name] is None else one[name]})
-    return numbers_of(runs, OF_INSTANT, known)
+    found = numbers_of(runs, tuple(OF_INSTANT), known)
+    return {name: replace(number, unit=OF_INSTANT[name]) for name, number in found.items()}
 
 
 def _crossings(runs: Runs) -> float:

@@ -80,14 +80,14 @@ class Question:
 
     @property
     def first_spread(self) -> bool:
-        """Whether it is about the first spread of a zone about the middle of a beam before a rigid wall, under no loads
+        """Whether the zone spreads for the first time, from the middle of a beam before a rigid wall, under no loads
         but those that theory knows to first order. It pushes at its rim; where the beam shears, behind the rim."""
         lossless = self.impact.replace(hysteretic_loss=0.0, loss_frequency=None)
         return beyond_first_order(lossless) is None and not self.impact.off_centre and not self.late
 
     @property
     def run_by(self) -> Method:
-        """The method with what it leaves open chosen; of a band the first."""
+        """The method with all its open settings chosen; of a band the first method drawn."""
         return self._chosen(self.method) if self.band is None else self._drawn(*self.band)[0]
 
     def _chosen(self, method: Method) -> Method:

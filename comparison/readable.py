@@ -37,8 +37,8 @@ LIMITS = {
     "damping": "the contact spreads, for which material damping has no closed form",
     "hysteretic loss": "the stiffness grows with the frequency, for which there is no closed form",
     "slope": "slopes are no longer small",
-    "shear": "shear deformation matters until another limit ends it",
-    "wall": "the wall does not act as a rigid one before another limit ends it",
+    "shear": "shear deformation matters for as long as its other limits allow",
+    "wall": "the wall gives way for as long as its other limits allow",
     "section": "the section yields",
 }
 BEFORE = {"shear": "shear deformation matters; for the reaction twice as long", "wall": "the wall gives way"}

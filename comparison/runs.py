@@ -143,7 +143,7 @@ def kept(
 
 
 def _attempted(store: RunStore | None, question: Question, read: Reading, method: Method, impact: Impact) -> Run | str:
-    """A companion: a coarser run may be too coarse, or its reason why there is none."""
+    """A companion run; where it fails, since coarser elements may be too coarse, why."""
     try:
         return kept(store, question.key(impact), method, read, lambda: question.run(method, impact))
     except (SimulationError, ValueError) as error:
@@ -178,8 +178,8 @@ def numbers_of(
 
 
 def _scales_of_rebound(reading: Mapping[str, Any]) -> dict[str, float]:
-    """Of what the least bar is a share, of numbers of a rebound: where one is a small difference, J = (1 + e)mV is not
-    known better, and the energies are as e² says."""
+    """Of what the least bar of a rebound's numbers is a share. e and J are known only as well as 1 + e, J = (1 + e)mV;
+    the energies follow from e²."""
     if "restitution" not in reading:
         return {}
     scales = {name: abs(reading[name]) for name in ("impulse", "dissipated")}

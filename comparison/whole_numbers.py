@@ -5,7 +5,9 @@ it off the record (or :mod:`bent_beam.measure.reduction`). The record must have 
 bent_beam/files.py, written by both paths (hermite_fe/simulate.py, exudyn_models/recording.py). What no companion run
 shows of its error is named in :mod:`comparison.bouncing`. With a heading, or where its name begins with
 ``peak_moment``, a sweep has it. ``predict`` says those of ``OF_WHOLE_IMPACT`` (predicting.py, in the words of
-texts.py), the page those of its ``answer.js``; ``SHOWN`` in figures/sweep.py are drawn.
+texts.py), other answers those of ``OF_WHOLE`` (bounced.py), the report those of ``WHOLE`` (report/whole.py), the page
+those of its ``answer.js``, which ``solver.js`` measures and ``view.js`` shows; ``SHOWN`` in figures/sweep.py are drawn.
+``MAY_BE_WIDE`` (doubts.py) are warned of, ``OF_THE_WHOLE`` (benchmarks/beams.py) held against finer runs.
 """
 
 from __future__ import annotations
@@ -16,7 +18,8 @@ from typing import NamedTuple
 class WholeNumber(NamedTuple):
     """What is said of a number.
 
-    scale : its SI unit among those of the beam (``Bounce.units``), empty where it has none; unit : the name of that.
+    scale : its SI unit among those of the beam (``Bounce.units``), empty where it has none, or comes from another
+        number, as a stress does; unit : the name of that.
     title : in the text of an answer. heading : in a sweep's table, empty where it does not stand there.
     more : stands in the longer text alone. final : exists only once the beam has left.
     """

@@ -62,7 +62,7 @@ def onwards(before: Any, gains: Array) -> Array:
 class Recorder:
     """One beam in one Exudyn system, stepped and read.
 
-    copies : of what is modelled in the whole beam.
+    copies : how often the whole beam has what is modelled: of a half beam 2.
     record : what is saved, model units, by the names of :mod:`bent_beam.history`.
     sums : totals over all steps that are summed up, model units.
     active : contact points that are closed, (contacts,); pushes : steps so far at whose ends one pushed.

@@ -111,7 +111,7 @@ def near_buckling(impact: Impact) -> float:
 
 
 def shortest_element(mesh: Mesh, impact: Impact) -> float:
-    """m."""
+    """Length of the shortest element, m."""
     return float(np.diff(mesh.nodes(modelled_half_length(mesh, impact))).min())
 
 
@@ -133,11 +133,11 @@ def thin_front(kappa_over_nu: float) -> bool:
 
 
 def chosen_steps(integrator: Implicit, factor: float, mesh: Mesh, impact: Impact, end: float) -> Implicit:
-    """``integrator``, whose steps are open, with its own, ``factor`` times shorter, in which a thin front passes
-    ``PASSED`` elements at most; once waves are back from the ends with those that resolve the contact.
+    """``integrator``, whose steps are open, with the steps of this run.
 
-    With elements so short that the latter would be more than ``MOST_STEPS`` the run takes the former, and warns where
-    its contact gives energy.
+    Until waves are back from the ends: its own relative step over ``factor``, in which a thin front passes ``PASSED``
+    elements at most. Later: :func:`resolving_step`. If that took more than ``MOST_STEPS``, the relative step stays, and
+    a contact that gives energy is told.
     """
     if (wall := wall_scales(impact)) is not None:
         return dataclasses.replace(integrator, time_step=step_of_wall(mesh, impact, wall))

@@ -93,6 +93,8 @@ class Contact(Part, ABC):
         if np.shape(law.strength) not in ((), (1,), (len(rows),)):
             shape = np.shape(law.strength)
             raise InputError(f"{name}.law must give one strength, or one a row, ({len(rows)},) (got shape {shape})")
+        if np.asarray(law.strength).dtype.kind not in "fiu":
+            raise InputError(f"{name}.law must give its strength as a number, N (got {law.strength!r})")
         if np.any(law.strength) and not self.sticks:
             raise InputError(f"{name}.law has a strength: set `sticks = True` in the class")
         return law

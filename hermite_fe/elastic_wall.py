@@ -56,7 +56,7 @@ class Springs(NamedTuple):
     stop: int
     side: float = 1.0
     at_landing: float = 0.0
-    at_once: float = AT_ONCE  # data: compiled code is kept until a module of this package changes
+    at_once: float = AT_ONCE  # a field: in compiled code a constant of another package would stay what it was
 
 
 NO_SPRINGS = Springs(0.0, 0.0, np.zeros(0), np.zeros(0), np.zeros(0), 0, 0, -1)

@@ -82,9 +82,9 @@ class HermiteFE(Composition):
     def for_loads(self, impact: Impact, end_time: float) -> Self:
         """A copy of these parts for a run that measures what the loads of ``impact`` change.
 
-        A long beam is cut where nothing arrives, its ends following the free motion, and a zone that the load presses
-        on is held behind the front: what lift the bare impact leaves would otherwise take up the load before the wall
-        does. Neither without loads, nor where the wall gives way.
+        A long beam is cut where nothing arrives, its ends following the free motion. A zone that the load presses is
+        held behind the front: the small gap that the bare impact leaves there would otherwise bear the load before the
+        wall does. Without loads, and where the wall gives way, nothing changes.
         """
         if not impact.loaded_to_first_order or impact.wall_stiffness is not None:
             return self

@@ -22,8 +22,8 @@ must be a fraction of ℓ where the front is, steps a fraction of its travel ove
 
 A whole beam asks for something else: :mod:`hermite_fe.whole_beam`.
 
-The constants below are studied in tests/comparison/test_constants.py: halved and doubled they move λ₀ and r₀ by less
-than the error bar that goes with them.
+Most of the constants below are studied in tests/comparison/test_constants.py: halved and doubled they move λ₀ and r₀ by
+at most 0.1 %. Those of an elastic wall, of a thin front and of the most elements are not.
 """
 
 from __future__ import annotations

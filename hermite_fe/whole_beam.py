@@ -37,7 +37,7 @@ from hermite_fe.resolution import (
 FEWEST_IN_FRONT = 4.0  # with fewer even elements the early impulse of one point is off by more than 1 %
 ELEMENTS = 200  # of a half beam that is followed until it has left
 SHEARED_ELEMENTS, SHEARED_STEP = 100, 0.0125  # likewise with shear; step, T*, over the element's share of the half beam
-HARD = 2.0  # times as many elements: with shear unless κ/ν ≥ THICK and η/T* ≥ DAMPED; in first instants of felt damping
+HARD = 2.0  # times as many elements: with shear where κ/ν < THICK or η/T* < DAMPED; in first instants of felt damping
 THICK, DAMPED = 0.35, 3e-4
 ONE_POINT = 2.0  # κ/ν from which on a whole impact with shear is that of one point
 LARGEST_ELASTIC = 0.25  # of ℓ_k: the longest element before a wall that gives way

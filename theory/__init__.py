@@ -3,7 +3,8 @@ elastic, and closed forms of single hits.
 
 `contact_parameters` solves the contact point, `ImpactFields` gives the beam around it, `SelfSimilarWave` the leading
 order in closed form, `peak_moment` its largest bending moment, and `predict` gives them for a physical
-impact. Its numbers carry the range in which they hold (`theory.validity`), and no error bar. The kernel is in
+impact. Its numbers carry the range in which they hold (`theory.validity`); one that is integrated in steps, the
+largest force on a wall, has an error bar. The kernel is in
 `theory.kernel`, the φ functions in `theory.phi`. No answer here comes from a simulation; three bounds of its range do
 (how long shear is felt, on a rigid and on an elastic wall, and how much damping of a beam's own a wall's law bears).
 """

@@ -29,9 +29,9 @@ class Instant:
     peak_moment_place, peak_moment_time : the largest moment of all steps so far, N m, m, s; moment_left_out : what
     it may have been at first, moment_spread : by how much it may be off (:mod:`bent_beam.measure.reduction`).
     peak_force, peak_penetration, peak_pressure : of a wall that gives way, so far, the force with its time, s, mean
-    |x|, m, wall ("front", "opposite") and how sharp it is, N (:class:`bent_beam.measure.reduction.WallPeaks`); the
-    pressure not of a stop. impulse_around : at ``SHARES_AROUND`` of the time, N s. element : length of the one at the
-    rim, m, or how far it jumps. lift : the largest inside the zone in the last decade of time, over V₀t.
+    |x|, m, wall ("front", "opposite") and how sharp it is, N (:class:`bent_beam.measure.reduction.WallPeaks`); a stop
+    has no pressure. impulse_around : at ``SHARES_AROUND`` of the time, N s. element : how well the rim is known, m: the
+    element there, or how far it jumps. lift : the largest inside the zone in the last decade of time, over V₀t.
     """
 
     half_contact_length: float | None

@@ -115,7 +115,7 @@ def number_of(
     of them has no value, there is no bar.
 
     >>> str(number_of(0.51, {"mesh_and_step": 0.508, "contact_law": 0.511}))
-    '0.510 ± 0.005'
+    '0.510 ± 0.004'
     """
     if value is None:
         return Number(theory=theory)

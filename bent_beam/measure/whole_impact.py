@@ -42,7 +42,7 @@ class WholeImpact:
     restitution : ``None`` where the beam has not left: loads keep it on the wall, or the run ends too early.
     within : ``last_contact`` is the middle between two saved instants, and known within half of their distance; within
         all of it where a wall gives way, whose push falls to zero gradually. drift : how much restitution and shares of
-        the energy change in that.
+        the energy change within that time.
     until : end of the span that the largest moment and force are of.
     contacts : begin and end of each contact, separations shorter than the shortest ignored; the last ends at the last
         contact, last_push is its impulse over mV₀, a velocity over V₀. returns : when the beam is nearest to the wall
@@ -56,8 +56,8 @@ class WholeImpact:
         largest impulse within :data:`WINDOW` T*, over μℓV₀; push_time : when the wall begins to push within that;
         push_rise : its part that was estimated between saved instants, which is also its uncertainty; of a rigid wall,
         whose pushes are short, half of what may lie there.
-    supplied : the initial energy and the work of the loads until the last contact, J; supplied_rate : by how much of it
-        that grows in T* then. element : length over ℓ of the element at the largest moment; its place lies in it.
+    supplied : the initial energy and the work of the loads until the last contact, J; supplied_rate : its relative
+        growth in T* there. element : length over ℓ of the element at the largest moment; its place lies in it.
     energy_defect : what the independently computed terms of the budget leave, of the initial energy; energy_gain : the
         largest rise of the energy, what springs of the wall hold included, above what loads have worked, likewise.
     left : whether the beam is off the wall for good; otherwise no number is final. again : whether the run has later

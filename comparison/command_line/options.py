@@ -60,7 +60,7 @@ Set = Annotated[
     typer.Option(
         "--set",
         metavar="TABLE.KEY=VALUE",
-        help="Override a setting of the case file; without one, of a path (PATH.KEY). Repeatable.",
+        help="Change a setting of the case; without a case file one of a path, PATH.KEY=VALUE. Repeatable.",
         autocompletion=setting_names,
     ),
 ]
@@ -71,8 +71,8 @@ Methods = Annotated[
 ErrorBars = Annotated[
     str,
     typer.Option(
-        help="quick (a companion of half the resolution; simulate, after 0.003 T*: another contact law, too), "
-        "thorough (also twice), drift (none)."
+        help="quick: one more run, of half the resolution. thorough: also one of twice. drift: none. After 0.003 T* "
+        "simulate adds one with another contact law."
     ),
 ]
 Refine = Annotated[

@@ -45,7 +45,7 @@ def sheet(
         draw_stress(largest, history, end, stress, yield_stress)
         draw_zone(zone, history, end)
         more = [*last, axes[3, 1]] if below else []
-        for axis, draw in zip(more, below):
+        for axis, draw in zip(more, below, strict=True):
             draw(axis, history, end)
         for axis in axes[:-1, 0]:
             axis.set_xlabel("")

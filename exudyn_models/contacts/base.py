@@ -1,7 +1,8 @@
 """What every contact is given and what it reports.
 
-The wall is y = 0, the beam lies in y ≤ 0, the gap is g = −y. A contact puts its connectors into the Exudyn system once.
-Between segments of time steps it is asked for the force at each contact point, and may switch connectors.
+A flat wall is y = 0, the beam lies in y ≤ 0, the gap is g = −y; ``wall_y`` and ``signs`` tell of a curved wall and of
+one opposite. A contact puts its connectors into the Exudyn system once. Between segments of time steps it is asked for
+the force at each contact point, and may switch connectors.
 
 A node is *captured* once its contact has closed. A captured node may be *held*, and is then pulled, too, by the wall
 (:class:`HeldStrip`):

@@ -227,6 +227,7 @@ def test_a_damping_that_is_not_stated_is_answered_over_three_and_one_that_is_sta
     rows, once = found.over_damping or [], bounce(stated, stated.method("hermite")).to_dict()
     assert [row["damping_ratio"] for row in rows] == [0.0002, 0.002, 0.02]
     assert found.in_si["peak_stress"].known == max(row["peak_stress"]["value"] for row in rows)
+    assert [found.in_si[name].unit for name in ("restitution", "peak_moment", "peak_stress")] == ["", "N m", "Pa"]
     assert any("no damping is stated" in line and "0.02, 0.2, 2 % of the" in line for line in found.warnings)
     assert once["over_damping"] is None and once["restitution"] == rows[1]["restitution"]
     assert told == sorted(told) and told[-1] == pytest.approx(1.0)

@@ -48,6 +48,10 @@ class Mute(MoreauJean):
         (lambda: exudyn_models.simulate(3), r"impact must be a bent_beam.Impact, .*\(got 3\)"),
         (lambda: exudyn_models.build(TUBE), "impact must be a bent_beam.Impact"),
         (lambda: method_from_tables("exudyn", {"integrator": {"rho": 0.9}}), "integrator.rho is not a known setting"),
+        (
+            lambda: Impact.whole_beam(0.5, shear_ratio=0.3),
+            r"shear_ratio has no effect without shear_length \(got 0.3\)",
+        ),
         (lambda: ExudynModel(mesh=3), r"mesh must be an instance of Mesh \(got 3\)"),
         (lambda: HermiteFE(contact=Light()).simulate(IMPACT, end_time=0.01), r"weights .* add up to one .*\(got 0.8\)"),
         (lambda: HermiteFE(integrator=Mute()).simulate(IMPACT, end_time=0.01), "Mute.advance must return .*got None"),

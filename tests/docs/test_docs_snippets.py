@@ -5,6 +5,8 @@ TOML with a file's name as its title is a case, which is read and written to the
 """
 
 import doctest
+import importlib
+import pkgutil
 import re
 import shlex
 from collections.abc import Iterator
@@ -15,13 +17,9 @@ import pytest
 from fences import FENCE, blocks
 from here import CASES, ROOT
 
-from bent_beam import Impact, ImpactHistory, load_case
-from bent_beam.measure.estimators import leading_order
+from bent_beam import load_case
 from comparison.command_line.app import run
-from comparison.matching import match
 from hermite_fe import HermiteFE
-from self_similar_fe import SelfSimilarFE
-from theory import contact_parameters, peak_moment, predict
 
 GENERATED = re.compile(r"(?:^|/)(?:settings|api/\w+)\.md")  # by docs/tools/generated.py
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
@@ -56,6 +54,7 @@ def test_commands_and_snippets_run(page, all_of_it, own_folder, capsys):
     space: dict[str, object] = {"__name__": "__docs__"}
     elsewhere = [] if page == PAGES[0] else [block.body for block in blocks(PAGES[0])]
     for block in blocks(page):
+        assert block.language in ("bash", "python", "toml", "text", ""), block.language
         if (block.is_long and not all_of_it) or block.body in elsewhere:
             continue
         if block.language == "text" and "printed by" in block.options:  # by the block before
@@ -124,14 +123,25 @@ def test_the_files_that_hold_the_facts_exist() -> None:
             assert (ROOT / "tests" / room / name.rpartition("/")[2]).is_file(), line
 
 
-HERMITE = pytest.param(HermiteFE, marks=pytest.mark.verify)
-NAMES = (Impact, ImpactHistory, load_case, match, HERMITE, leading_order, SelfSimilarFE, contact_parameters)
+ROOMS = ("bent_beam", "theory", "hermite_fe", "self_similar_fe", "exudyn_models", "comparison", "bent_beam_programs")
+LONG_EXAMPLE = "hermite_fe.method.HermiteFE"
+SHOWN = {
+    "bent_beam.cases.load_case", "bent_beam.history.ImpactHistory", "bent_beam.impact.Impact",
+    "bent_beam.measure.estimators.leading_order", "comparison.matching.match", LONG_EXAMPLE,
+    "self_similar_fe.method.SelfSimilarFE", "theory.contact.contact_parameters", "theory.prediction.predict",
+    "theory.similarity.peak_moment",
+}  # fmt: skip
+"""What people start with."""
 
 
-@pytest.mark.parametrize("name", (*NAMES, peak_moment, predict), ids=lambda name: name.__name__)
-def test_the_example_of_a_name_gives_what_it_shows(name, monkeypatch):
-    """Of the ten that people start with."""
+@pytest.mark.parametrize("long", [False, pytest.param(True, marks=pytest.mark.verify)])
+def test_examples_in_docstrings_give_what_they_show(long: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(ROOT)
-    found = doctest.DocTestFinder(recurse=False).find(name, name.__name__, globs={})
-    assert found and found[0].examples
-    assert doctest.DocTestRunner().run(found[0]).failed == 0
+    rooms = [importlib.import_module(room) for room in ROOMS]
+    names = [one.name for room in rooms for one in pkgutil.walk_packages(room.__path__, f"{room.__name__}.")]
+    finder, runner = doctest.DocTestFinder(), doctest.DocTestRunner()
+    found = [test for name in names for test in finder.find(importlib.import_module(name)) if test.examples]
+    assert {test.name for test in found} >= SHOWN
+    for test in found:
+        if (test.name == LONG_EXAMPLE) == long:
+            assert runner.run(test).failed == 0, test.name

@@ -106,6 +106,7 @@ REFUSED = [
     (lambda: at_rest(SignoriniPosition(1e-4, theta=0.9), 1.0, law=ContactLaw(strength=np.ones(1))), "theta = 1"),
     (lambda: odd(lambda *_: None), "Odd.law must return a ContactLaw"),
     (lambda: odd(lambda *_: ContactLaw(strength=np.ones(3))), "Odd.law must give one strength, or one a row"),
+    (lambda: odd(lambda *_: ContactLaw(strength="1.0")), "strength as a number, N .*got '1.0'"),
     (lambda: odd(lambda *_: ContactLaw(strength=1.0), sticks=False), "Odd.law has a strength: set `sticks"),
     (lambda: odd(lambda *_: ContactLaw(strength=1.0, hold=2)), "neither rebounds nor is held"),
 ]  # fmt: skip
