@@ -72,3 +72,9 @@ def test_an_edge_takes_the_same_node_and_a_zone_has_the_same_elements_in_every_u
         assert zone / unit == pytest.approx(0.1 * np.arange(6))
         moved = snapped(unit * np.arange(11) * 0.1, (unit * 0.45, unit * 0.85)) / unit
         assert moved == pytest.approx([0.0, 0.1, 0.2, 0.3, 0.45, 0.5, 0.6, 0.7, 0.85, 0.9, 1.0])
+
+
+def test_what_is_left_at_the_end_is_an_element_of_its_own_from_half_the_shortest_on() -> None:
+    """Less than that makes those before it longer: a sliver would ask for short steps."""
+    few, many = (np.diff(GradedMesh(1.0, growth=1.02, zone=4.0).nodes(4.0 + rest)) for rest in (0.45, 0.55))
+    assert few == pytest.approx(np.full(4, 1.1125)) and many == pytest.approx(np.array([1.0, 1.0, 1.0, 1.0, 0.55]))
