@@ -24,7 +24,7 @@ from exudyn_models.assembly import assemble, lay_out
 from exudyn_models.contacts import Penalty, SegmentFriction, penalty
 from exudyn_models.elements import ANCFCable, GeometricallyExact
 from exudyn_models.integrators import GeneralizedAlpha, Trapezoidal
-from exudyn_models.resolution import chosen_steps
+from exudyn_models.resolution import chosen_steps, resolving_step
 from exudyn_models.solvers import USUAL, NewtonSolver
 from hermite_fe import HermiteFE
 
@@ -157,6 +157,8 @@ def test_an_ensemble_has_penalties_from_a_quarter_of_the_usual_on_and_coarser_el
     assert 0.25 <= min(shares) < 0.5 < max(shares) <= 1.0
     usual = ExudynModel().for_whole_beam(impact).mesh.element_length
     assert all(usual < one.mesh.element_length < 3.0 * usual for one in drawn)
+    steps = [one.integrator.time_step / resolving_step(one.mesh, impact) for one in drawn]
+    assert 2.0**-0.5 <= min(steps) < 0.9 and 1.1 < max(steps) <= 2.0**0.5
 
 
 @pytest.mark.parametrize("form", ["", "relative_"])

@@ -43,5 +43,5 @@ def test_a_bar_holds_the_error_of_a_run_of_first_order_and_is_at_most_twice_as_w
 def test_a_band_is_mean_and_standard_deviation_of_its_runs() -> None:
     assert Band.of([1.0, 2.0, 3.0]) == Band(2.0, 1.0, 3)
     assert Band.of([1.0, 2.0, 3.0]).scaled(2.0) == Band(4.0, 2.0, 3)
-    turned = Number(0.3, 2.0, parts={"mesh": 2.0}).scaled(-1.0)
-    assert (turned.value, turned.bar, turned.parts) == (-0.3, 2.0, {"mesh": 2.0})
+    turned = Number(0.3, 2.0, parts={"mesh": 2.0}).scaled(-10.0, name="dN")
+    assert turned == Number(-3.0, 20.0, unit="dN", parts={"mesh": 20.0})
