@@ -15,8 +15,7 @@ from scipy.interpolate import CubicHermiteSpline
 from bent_beam import ImpactHistory, InputError
 from bent_beam.checks import finite, whole
 from bent_beam.fields import part_from_table
-from bent_beam.measure.instant import so_far
-from bent_beam.measure.reduction import peak_moment
+from bent_beam.measure.instant import largest_moment
 from bent_beam.method import Progress, method_type
 from bent_beam.versions import versions
 from comparison.readable import milliseconds, shown, text_table, unit_for
@@ -45,7 +44,7 @@ def compare_histories(a: ImpactHistory, b: ImpactHistory) -> dict[str, Any]:
     lengths = (2.0 / h.sides * float(np.ptp(h.positions(0))) for h in (a, b))
     if not math.isclose(*lengths, rel_tol=1e-6):  # each models another part of the beam
         apart["kinetic_energy"] = None
-    numbers["peak_moment"] = [so_far(peak_moment, h, end, "moment", jumps=True).moment for h in (a, b)]
+    numbers["peak_moment"] = [largest_moment(h, end).moment for h in (a, b)]
     apart["gap"] = _gap_apart(a, b, end)
     return {
         "paths": [a.path, b.path],

@@ -6,7 +6,6 @@ is that of what pushes in saved intervals around it. A rigid wall has no largest
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -14,7 +13,7 @@ import numpy as np
 
 from bent_beam.history import ImpactHistory
 from bent_beam.measure.moments import AROUND, first_front, half_contact_length, lift, mean_reaction, unsure
-from bent_beam.measure.reduction import moment_left_out, peak_moment, wall_peaks
+from bent_beam.measure.reduction import PeakMoment, WallPeaks, moment_left_out, peak_moment, wall_peaks
 
 SHARES_AROUND = np.linspace(1.0 - AROUND, 1.0 + AROUND, 9)  # of an instant
 BEYOND = 1.0 + AROUND  # times an instant: how far a run must go to be read there
@@ -62,8 +61,8 @@ def instant(history: ImpactHistory, time: float, *, first_spread: bool = False) 
     """
     k = int(np.argmin(np.abs(history.time - time)))  # saved times are those of steps
     front, bent = first_front(history, time) if first_spread else (half_contact_length(history, k), None)
-    peak = so_far(peak_moment, history, time, "moment", jumps=True)
-    wall = so_far(wall_peaks, history, time, "force", "penetration", "pressure")
+    peak = largest_moment(history, time)
+    wall = _wall_so_far(history, time)
     begin, end = history.impact.wall_span
     recent = (history.time >= 0.1 * time) & (history.time <= time * (1.0 + 1e-9))
     return Instant(
@@ -88,13 +87,28 @@ def instant(history: ImpactHistory, time: float, *, first_spread: bool = False) 
     )
 
 
-def so_far(read: Callable[..., Any], history: ImpactHistory, time: float, *names: str, jumps: bool = False) -> Any:
-    """The largest of all steps until ``time``: between the saved instants before and after, what grows is
-    interpolated. What ``jumps`` at the impact does not grow from 0 to the first saved instant."""
+def largest_moment(history: ImpactHistory, time: float) -> PeakMoment:
+    """The largest moment of all steps until ``time``, s. Between two saved instants it is the moment that is
+    interpolated: the largest so far has a kink where the moment passes it. From 0 to the first saved instant the moment
+    jumps, and is that of the first."""
     k = min(int(np.searchsorted(history.time, time)), history.time.size - 1)
-    late = read(history, until=float(history.time[k]))
-    if late is None or k == 0 or (jumps and k == 1):
+    late = peak_moment(history, until=float(history.time[k]))
+    if k < 2:
         return late
-    early, span = read(history, until=float(history.time[k - 1])), history.time[k - 1 : k + 1]
-    mixed = {name: float(np.interp(time, span, (getattr(early, name), getattr(late, name)))) for name in names}
+    early = peak_moment(history, until=float(history.time[k - 1]))
+    now = float(np.interp(time, history.time[k - 1 : k + 1], history.moment[k - 1 : k + 1]))
+    if now <= early.moment:
+        return early
+    return late._replace(moment=min(now, late.moment), time=min(late.time, time))
+
+
+def _wall_so_far(history: ImpactHistory, time: float) -> WallPeaks | None:
+    """The peaks of all steps until ``time``, s, interpolated between saved instants."""
+    k = min(int(np.searchsorted(history.time, time)), history.time.size - 1)
+    late = wall_peaks(history, until=float(history.time[k]))
+    if late is None or k == 0:
+        return late
+    early, span = wall_peaks(history, until=float(history.time[k - 1])), history.time[k - 1 : k + 1]
+    names = ("force", "penetration", "pressure")
+    mixed: Any = {name: float(np.interp(time, span, (getattr(early, name), getattr(late, name)))) for name in names}
     return late._replace(time=min(late.time, time), **mixed)

@@ -6,7 +6,7 @@ from histories import history_of
 
 from bent_beam import Impact, ImpactHistory
 from bent_beam.measure.force_map import force_map, spread
-from bent_beam.measure.instant import instant
+from bent_beam.measure.instant import instant, largest_moment
 from bent_beam.measure.moments import first_front, half_contact_length, jump_of_rim, lift, mean_reaction, unresolved
 from bent_beam.measure.reduction import pull_of, rise_between, wall_peaks
 from hermite_fe import HermiteFE
@@ -125,6 +125,17 @@ def test_the_largest_until_a_time_between_saved_instants_is_that_of_the_steps_un
     first = float(coarse.time[1])  # until then a force grows from nothing
     of_first = [instant(coarse, share * first).peak_force for share in (0.0, 0.5, 1.0)]
     assert of_first == pytest.approx([0.0, 0.5 * of_first[2], of_first[2]]) and of_first[2] > 0.0
+
+
+def test_a_moment_that_passes_its_earlier_largest_between_saved_instants_is_interpolated_itself() -> None:
+    """It is 0.9 at 2 s and 1.5 at 3 s, and the largest before was 1.2: that stands until 2.5 s, with its place."""
+    time, moment = np.arange(5.0), np.array([0.0, 1.2, 0.9, 1.5, 1.0])
+    told = {"largest_moment": moment, "largest_midspan_moment": moment, "largest_moment_place": 0.1 * time}
+    run = history_of(time, np.linspace(0.0, 1.0, 5), impact=Impact.whole_beam(2.0), **told)
+    found = [largest_moment(run, at) for at in (2.0, 2.4, 2.6, 2.9, 3.0, 3.5)]
+    assert [one.moment for one in found] == pytest.approx([1.2, 1.2, 1.26, 1.44, 1.5, 1.5])
+    assert [one.place for one in found] == pytest.approx([0.1, 0.1, 0.3, 0.3, 0.3, 0.3])
+    assert all(one.time <= at for one, at in zip(found, (2.0, 2.4, 2.6, 2.9, 3.0, 3.5)))
 
 
 def test_the_largest_moment_of_the_first_instants_is_not_interpolated_from_before_the_impact() -> None:
