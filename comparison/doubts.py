@@ -169,9 +169,10 @@ def energy_residual(energy: Energies) -> float:
 def loss_warnings(energy: Energies) -> list[str]:
     """A warning where :func:`numerical_loss` is notable."""
     share = numerical_loss(energy)
-    if share < NOTABLE_LOSS:
+    if abs(share) < NOTABLE_LOSS:
         return []
-    return [f"steps, mesh and grid viscosity took {100.0 * share:.2g} % of the initial energy"]
+    did = "took" if share > 0.0 else "gave"
+    return [f"steps, mesh and grid viscosity {did} {100.0 * abs(share):.2g} % of the initial energy"]
 
 
 def yields(numbers: Mapping[str, Any], section: Section | None) -> bool | None:

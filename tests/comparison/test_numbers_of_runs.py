@@ -213,7 +213,8 @@ def test_what_is_missing_of_the_energy_without_being_booked_counts_as_lost() -> 
     assert numerical_loss(booked | {"defect": 0.01}) == pytest.approx(0.015)  # too much of it is no loss
     twice = {name: 2.0 * (value or 0.0) for name, value in (booked | {"defect": -0.01}).items()}
     assert numerical_loss(twice) == pytest.approx(0.025)
-    assert loss_warnings(booked | {"defect": -0.01}) and not loss_warnings(booked)
+    assert "took 2.5 % of" in loss_warnings(booked | {"defect": -0.01})[0] and not loss_warnings(booked)
+    assert "gave 3 % of" in loss_warnings(booked | {"loss_algorithmic": -0.03, "loss_viscous": 0.0})[0]
     assert energy_residual(ENERGY | {"defect": -0.01, "work_of_loads": -1.0}) == pytest.approx(0.005)
 
 
