@@ -61,7 +61,8 @@ def test_every_door_says_that_the_beam_yields_and_that_a_late_number_is_of_a_bea
         unknown = replace(case, section=replace(case.section, yield_stress=None))
         assert predict_case(unknown, [time], whole=False).to_dict()["yields"] is None
         late, whole = (simulate_case(case, "hermite", until=until).to_dict() for until in (time, None))
-        told = [known["warnings"], late["warnings"], *([] if none else [whole["warnings"], bounce(case).warnings])]
+        told = [known["warnings"], late["warnings"], *([] if none else [whole["warnings"]])]
+        told += [bounce(case).warnings] if yields and not none else []
         for lines in told:
             assert any("beyond the yield stress of 20 MPa" in line for line in lines) is yields
             assert any("those of a beam without any" in line for line in lines) is none

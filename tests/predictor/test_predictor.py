@@ -50,10 +50,11 @@ def random_impacts(count: int) -> list[Impact]:
     return impacts
 
 
-def test_page_is_the_theory_on_random_beams() -> None:
+@pytest.mark.parametrize(("walls", "count"), [(3, 25), pytest.param(8, 40, marks=pytest.mark.verify)])
+def test_page_is_the_theory_on_random_beams(walls: int, count: int) -> None:
     shares, area, modulus = [0.003, 0.03, 0.3], 2.0, 0.5
-    pointed = 10.0 ** np.random.default_rng(22).uniform(0.0, 2.0, 8)  # few of the others stand before a wall
-    impacts = [Impact.dimensionless(ratio).replace(wall_stiffness=1e10) for ratio in pointed] + random_impacts(40)
+    pointed = 10.0 ** np.random.default_rng(22).uniform(0.0, 2.0, walls)  # few of the others stand before a wall
+    impacts = [Impact.dimensionless(ratio).replace(wall_stiffness=1e10) for ratio in pointed] + random_impacts(count)
     section = {"area": area, "modulus": modulus, "yieldStress": None}
     beams = [{here: in_si(i, there) for here, there in NAMES.items()} | section for i in impacts]
     solved = "given.beams.map((b) => { const p = Instants.solve(b);"
@@ -84,7 +85,7 @@ def test_page_is_the_theory_on_random_beams() -> None:
                 assert value is None or at[name] == pytest.approx(value, rel=1e-6, abs=1e-6 * unit), name
                 compared += value is not None
     assert {"shear", "wall", "damping", "waves back from the ends", "slope", "first-order correction"} <= causes
-    assert compared > 260 and unknown > 3
+    assert compared > 5 * (walls + count) and unknown > 3
 
 
 def test_the_page_doubts_a_speed_of_sound_and_a_strain_that_no_material_has_and_the_weight_of_an_added_mass() -> None:
