@@ -232,7 +232,7 @@ class _Bending:
         """Largest |σ| (Pa) of a moment together with the axial force."""
         if self.section is None or moment is None:
             return None
-        return self.section.stress(moment, self.impact.axial_force)
+        return moment / self.section.section_modulus + abs(self.impact.axial_force) / self.section.area
 
 
 def _at_time(
