@@ -92,9 +92,9 @@ def largest_moment(history: ImpactHistory, time: float) -> PeakMoment:
     interpolated: the largest so far has a kink where the moment passes it. From 0 to the first saved instant the moment
     jumps, and is that of the first."""
     k = min(int(np.searchsorted(history.time, time)), history.time.size - 1)
-    late = peak_moment(history, until=float(history.time[k]))
     if k < 2:
-        return late
+        return peak_moment(history, until=float(history.time[k]))
+    late = peak_moment(history, until=float(history.time[k]), since=k - 1)
     early = peak_moment(history, until=float(history.time[k - 1]))
     now = float(np.interp(time, history.time[k - 1 : k + 1], history.moment[k - 1 : k + 1]))
     if now <= early.moment:
@@ -103,12 +103,20 @@ def largest_moment(history: ImpactHistory, time: float) -> PeakMoment:
 
 
 def _wall_so_far(history: ImpactHistory, time: float) -> WallPeaks | None:
-    """The peaks of all steps until ``time``, s, interpolated between saved instants."""
+    """The peaks of all steps until ``time``, s, interpolated between saved instants. A force that had fallen grows
+    beyond its earlier largest from what it was at the earlier instant."""
     k = min(int(np.searchsorted(history.time, time)), history.time.size - 1)
     late = wall_peaks(history, until=float(history.time[k]))
     if late is None or k == 0:
         return late
-    early, span = wall_peaks(history, until=float(history.time[k - 1])), history.time[k - 1 : k + 1]
+    early, (begin, end) = wall_peaks(history, until=float(history.time[k - 1])), history.time[k - 1 : k + 1]
+    share = (time - begin) / (end - begin)
+    if k > 1 and early.time < history.time[k - 2] and late.force > early.force:
+        fallen = abs(float(np.gradient(history.array("total_impulse"), history.time)[k - 1]))
+        force = np.interp(time, (begin, late.time), (fallen, late.force))
+        share = max(float(force) - early.force, 0.0) / (late.force - early.force)
+    if share == 0.0:
+        return early
     names = ("force", "penetration", "pressure")
-    mixed: Any = {name: float(np.interp(time, span, (getattr(early, name), getattr(late, name)))) for name in names}
+    mixed: Any = {name: (1.0 - share) * getattr(early, name) + share * getattr(late, name) for name in names}
     return late._replace(time=min(late.time, time), **mixed)

@@ -128,8 +128,8 @@ def pull_of(history: ImpactHistory) -> float | None:
 
 
 def peak_moment(history: ImpactHistory, until: float | None = None, since: int = 0) -> PeakMoment:
-    """The largest bending moment anywhere, and in the middle, up to ``until`` (s; ``None``: the last instant): of all
-    steps after the saved instant ``since`` where a history has them, otherwise at the saved instants after the first.
+    """The largest bending moment anywhere, and in the middle, up to ``until`` (s; ``None``: the last instant), after
+    the saved instant ``since``: of all steps where a history has them, otherwise at the saved instants.
 
     The first instants of all steps are left out: the first touch of a mesh bends it the more the stiffer its contact is
     (κ/ν = 2.5: 1.42 V₀√(EIμ) on every mesh, where the beam has 1)."""
@@ -146,7 +146,7 @@ def peak_moment(history: ImpactHistory, until: float | None = None, since: int =
     best = PeakMoment(0.0, 0.0, float(history.time[0]), 0.0)
     midspan = 0.0
     moving = "position" in history
-    for first in range(1, count, 1 if moving else CHUNK):
+    for first in range(since + 1, count, 1 if moving else CHUNK):
         moments, place = history.bending_moments(first if moving else slice(first, min(first + CHUNK, count)))
         sizes = np.abs(moments).reshape(-1, *place.shape)
         if moving:  # with a beam without end

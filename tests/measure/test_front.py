@@ -138,6 +138,23 @@ def test_a_moment_that_passes_its_earlier_largest_between_saved_instants_is_inte
     assert all(one.time <= at for one, at in zip(found, (2.0, 2.4, 2.6, 2.9, 3.0, 3.5)))
 
 
+def test_a_force_of_the_wall_that_passes_its_earlier_largest_between_saved_instants_is_interpolated_itself() -> None:
+    """It falls from 1.1 at 1 s to 0.5 at 3 s, grows by 0.4 a second, and is 1.1 again in the middle of a saved
+    interval: the wall is pressed in half as far."""
+    time = np.arange(6.0)
+    force, largest = np.array([0.0, 1.1, 0.8, 0.5, 0.9, 1.3]), np.array([0.0, 1.1, 1.1, 1.1, 1.1, 1.3])
+    told = {name: largest for name in ("peak_force", "peak_penetration", "peak_pressure")}
+    told |= {"peak_penetration": 0.5 * largest, "peak_force_time": np.array([0.0, 1.0, 1.0, 1.0, 1.0, 5.0])}
+    given = np.concatenate(([0.0], np.cumsum(0.5 * (force[1:] + force[:-1]))))
+    impact = Impact.whole_beam(2.0).replace(wall_stiffness=100.0)
+    x, pushed = np.linspace(0.0, 1.0, 4), np.outer(given, [0.5, 0.0, 0.0, 0.0])
+    run = history_of(time, x, impact=impact, impulse=pushed, total_impulse=given, **told)
+    found = [instant(run, at) for at in (4.0, 4.25, 4.75, 5.0)]
+    assert [one.peak_force for one in found] == pytest.approx([1.1, 1.1, 1.2, 1.3])
+    assert [one.peak_penetration for one in found] == pytest.approx([0.55, 0.55, 0.6, 0.65])
+    assert [one.peak_force_time for one in found] == pytest.approx([1.0, 1.0, 4.75, 5.0])
+
+
 def test_the_largest_moment_of_the_first_instants_is_not_interpolated_from_before_the_impact() -> None:
     """It is there at once, V₀√(EIμ) of one point, and does not grow from 0 to the first saved instant."""
     fine, coarse = (HermiteFE().simulate(Impact.whole_beam(2.0), end_time=0.004, save=n) for n in (400, 3))
