@@ -106,10 +106,10 @@ def _wall_so_far(history: ImpactHistory, time: float) -> WallPeaks | None:
     """The peaks of all steps until ``time``, s, interpolated between saved instants. A force that had fallen grows
     beyond its earlier largest from what it was at the earlier instant."""
     k = min(int(np.searchsorted(history.time, time)), history.time.size - 1)
-    late = wall_peaks(history, until=float(history.time[k]))
-    if late is None or k == 0:
+    early, late = (wall_peaks(history, until=float(history.time[max(i, 0)])) for i in (k - 1, k))
+    if early is None or late is None or k == 0:
         return late
-    early, (begin, end) = wall_peaks(history, until=float(history.time[k - 1])), history.time[k - 1 : k + 1]
+    begin, end = history.time[k - 1 : k + 1]
     share = (time - begin) / (end - begin)
     if k > 1 and early.time < history.time[k - 2] and late.force > early.force:
         fallen = abs(float(np.gradient(history.array("total_impulse"), history.time)[k - 1]))

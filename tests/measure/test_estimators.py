@@ -11,7 +11,7 @@ from histories import history_of
 from bent_beam import Impact, ImpactHistory
 from bent_beam.measure import estimators
 from bent_beam.measure.estimators import SIDE, first_order, leading_order
-from bent_beam.measure.moments import Moments, first_front, local_front, moments, one_side
+from bent_beam.measure.moments import Moments, first_front, local_front, moments, one_side, unresolved_at_end
 from bent_beam.measure.numbers import FACTOR, Number
 from comparison.compare import compare_histories
 from theory import contact_parameters
@@ -267,3 +267,15 @@ def test_two_saved_instants_tell_the_uniform_reaction_between_them():
     few = history_of(run.time[kept], run.positions(0), impact=run.impact, impulse=impulse, total_impulse=total)
     assert moments(few).pressure[1] == pytest.approx(0.1 * 1.5, rel=0.1)
     assert moments(few).impulse[0] == pytest.approx(impulse[0].sum())  # nothing is known of what was before
+
+
+def test_springs_in_place_of_a_rigid_wall_leave_half_of_the_square_of_their_length_over_the_front() -> None:
+    """EI = 2 N m² and k_c = 5e5 N/m² make √(EI/k_c) = 2e-3 m²; elements resolve the front."""
+    time, x = np.linspace(0.0, 1.0, 11), np.linspace(0.0, 1.0, 101)
+    impact = Impact(2.0, 8.0, 6.0, 0.5, 1.0)
+    rigid = history_of(time, x, impact=impact, impulse=np.outer(time, x <= 0.4), total_impulse=82.0 * time)
+    found = moments(rigid)
+    front = float(found.front[-1]) * impact.length_scale
+    springs = ImpactHistory.of(rigid.dataset.assign_attrs(settings='{"integrator": {"stiffness": 5e5}}'))
+    assert unresolved_at_end(rigid, found) == 0.0
+    assert unresolved_at_end(springs, found) * impact.length_scale == pytest.approx(0.5 * 2e-3 / front) and front > 0.03
