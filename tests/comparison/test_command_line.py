@@ -122,7 +122,7 @@ def test_bad_input_is_one_line_and_exit_2(arguments, message):
 
 
 def test_the_beam_of_two_numbers_is_told_to_be_no_real_one():
-    code, out, _ = command("bounce", "--kappa-over-nu", 2, "--damping", 0.1, "--set", "hermite.refine=0.25", "--quiet")
+    code, out, _ = command("bounce", "--kappa-over-nu", 2, "--damping", 0.1, "--set", "hermite.refine=0.1", "--quiet")
     assert code == 0 and "L/2 = EI = mu = V0 = 1" in out
 
 

@@ -1,6 +1,7 @@
 """The point of the project: any method is held against the theory, and those of this project agree with it."""
 
 import json
+import pickle
 import re
 from dataclasses import replace
 from functools import cache
@@ -83,15 +84,17 @@ def test_every_path_matches_the_first_order(kappa, loads, method, error_bars, li
             assert row.lambda1.covered and row.r1.covered, first
 
 
-def test_a_sweep_resumes_and_does_not_depend_on_jobs(tmp_path):
+@pytest.mark.parametrize("jobs", [1, pytest.param(2, marks=pytest.mark.verify)])
+def test_a_sweep_resumes_and_does_not_depend_on_jobs(jobs, tmp_path):
     asked = questions([SelfSimilarFE(refine=0.5)], [0.5, 0.25, 2.0])
     first = match(asked[:2], store=RunStore(tmp_path))
     kept = {f.name: f.read_bytes() for f in tmp_path.iterdir()}
-    both = match(asked, store=RunStore(tmp_path), jobs=2)
+    both = match(asked, store=RunStore(tmp_path), jobs=jobs)
     assert both[:2] == first  # from the store: seconds and all
     assert {f.name: f.read_bytes() for f in tmp_path.iterdir() if f.name in kept} == kept
     alone = match(asked[2:])
     assert (alone[0].lambda0, alone[0].r0) == (both[2].lambda0, both[2].r0)
+    assert pickle.loads(pickle.dumps((asked, both))) == (asked, both), "as they go from process to process"
 
 
 def test_a_row_that_is_refined_has_the_numbers_and_bars_of_a_method_that_is():
