@@ -1,25 +1,51 @@
 """The page says of the first instants what `theory` says and of a whole impact what `bounce` says; its case files mean
-what it shows, and it is complete in itself."""
+what it shows, those of others are read or refused by name, and it is complete in itself. Its scripts run in Node.js."""
 
+import json
 import math
 import re
+import shutil
+import subprocess
 import tomllib
 from typing import Any
 
 import numpy as np
 import pytest
 from called import command, refused
-from here import ROOT
+from here import CASES, ROOT
+from histories import ROD
 from markdown_tables import RAISED
-from page_model import NAMES, evaluated, in_si
 
 from bent_beam.cases import case_from_tables
+from bent_beam.errors import InputError
 from bent_beam.impact import Impact
 from bent_beam.measure.numbers import FACTOR, Number
-from bent_beam_programs.predictor.page import page
+from bent_beam_programs.predictor.page import MODEL, SIMULATION, page, script
 from comparison.bouncing import bounce
 from comparison.whole_numbers import FINAL
 from theory import predict as theory_predict
+
+
+def evaluated(expression: str, argument: Any) -> Any:
+    """What the page's scripts make of ``expression`` with ``given``, JSON in and out."""
+    if shutil.which("node") is None:
+        pytest.skip("Node.js is not installed")
+    parts = [script((*MODEL, *SIMULATION[:-1], "draw.js", "form.js", "words.js"))]
+    parts += [f"const given = {json.dumps(argument)};", f"console.log(JSON.stringify({expression}));"]
+    done = subprocess.run(["node", "-"], input="\n".join(parts), capture_output=True, text=True, check=True)
+    return json.loads(done.stdout)
+
+
+NAMES = {"stiffness": "bending_stiffness", "mass": "mass_per_length", "length": "length", "curvature": "curvature",
+         "velocity": "velocity", "acceleration": "acceleration", "tension": "axial_force", "damping": "damping",
+         "wallCurvature": "wall_curvature", "naturalCurvature": "natural_curvature", "shear": "shear_stiffness",
+         "turning": "rotary_inertia", "wallStiffness": "wall_stiffness", "wallDamping": "wall_damping"}  # fmt: skip
+
+
+def in_si(impact: Impact, name: str) -> float:
+    """A field as the page has it: 0 for none, the whole bow where no stress-free one is stated."""
+    value = getattr(impact, name)
+    return float(impact.curvature if value is None and name == "natural_curvature" else value or 0.0)
 
 
 def random_impacts(count: int) -> list[Impact]:
@@ -144,6 +170,51 @@ def test_a_case_means_what_the_page_shows_and_is_read_back() -> None:
         assert case.damping_stated == (row["b"]["damping"] is not None) == (row["again"]["damping"] is not None)
         for here, there in {"modulus": "section_modulus", "area": "area"}.items():
             assert row["b"][here] == pytest.approx(getattr(case.section, there), rel=1e-12)
+
+
+READ = "given.map((text) => { try { return Beam.impact(Case.read(text)); } catch (error) { return error.message; } })"
+
+
+def test_cases_are_read_and_what_the_page_lacks_is_refused_by_name() -> None:
+    """A drop is under standard gravity where none is stated; at 100° it draws away from the wall."""
+    texts = {name: (CASES / f"{name}.toml").read_text(encoding="utf-8")
+             for name in ("tube", "drill_pipe", "rail", "ruler", "two_walls", "tube_between_plates")}  # fmt: skip
+    for fall in ("drop_height = 0.05\ngravity_angle = 30.0", "velocity = 1.0\ngravity = 9.81\ngravity_angle = 100.0"):
+        texts[fall] = ROD.replace("velocity = 1.0", fall)
+    texts["nonsense"] = texts["tube"].replace("[run]", "[exudyn]\nrun = true\n[run]")
+    found = dict(zip(texts, evaluated(READ, list(texts.values())), strict=True))
+    assert "beam.bending_stiffness is not on this page" in found.pop("two_walls")
+    assert "beam.ends is not on this page" in found.pop("tube_between_plates")
+    assert "run = true is not a number" in found.pop("nonsense")
+    for name, read in found.items():
+        impact = case_from_tables(tomllib.loads(texts[name])).impact
+        for here, there in NAMES.items():
+            assert (read[here] or 0.0) == pytest.approx(in_si(impact, there), rel=1e-9), (name, here)
+
+
+GENERAL = 'kind = "general"\narea_of_section = 1e-4\nsecond_moment_of_area = 1e-9\nsection_height = 0.01'
+REFUSED = [  # instead of a line of the rod, another: what the page says
+    ("density = 7850.0", "", "section.density is missing"),
+    ("diameter = 0.02", "", "section.diameter is missing"),
+    ('kind = "round_bar"\ndiameter = 0.02', GENERAL, "needs a section that knows its shear"),
+    ("diameter = 0.02", "diameter = 0.02\nwidth = 0.1", "section.width is none of a round_bar"),
+    ("sagitta = 0.01", "", "give one of beam.sagitta, beam.curvature, beam.dogleg"),
+    ("sagitta = 0.01", "sagitta = 0.01\ncurvature = 0.1", "give one of beam.sagitta"),
+    ("sagitta = 0.01", "curvature = 0.1\nsagitta_length = 0.5", "sagitta_length has no effect"),
+    ("velocity = 1.0", "", "give one of impact.velocity, impact.drop_height"),
+    ("velocity = 1.0", "velocity = 1.0\ngravity = 9.81\nacceleration = 1.0", "say the same"),
+    ("velocity = 1.0", "velocity = 1.0\ngravity_angle = 30.0", "gravity_angle has no effect"),
+    ("velocity = 1.0", "velocity = 1.0\n[wall]\ndamping_ratio = 0.1", "wall.damping_ratio has no effect"),
+]
+
+
+def test_the_page_makes_nothing_up_of_a_case_that_bentbeam_refuses() -> None:
+    sheared = ROD.replace("length", 'model = "timoshenko"\nlength')  # a general section has no shear
+    texts = [(sheared if other == GENERAL else ROD).replace(line, other) for line, other, _ in REFUSED]
+    for text, (_, _, said), found in zip(texts, REFUSED, evaluated(READ, texts), strict=True):
+        with pytest.raises(InputError):
+            case_from_tables(tomllib.loads(text))
+        assert said in found
 
 
 def page_and_bounce(inputs: list[dict[str, Any]], share: float = 1.0) -> tuple[int, list[str]]:

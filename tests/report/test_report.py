@@ -1,25 +1,66 @@
-"""The report's page: it stands alone, escapes what it shows, and says what the rows say."""
+"""The report's page: it stands alone, escapes what it shows, says what the rows say, and works in a browser."""
 
 import re
 from collections import Counter
 from html import unescape
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
-from report_fixtures import KEPT, METHODS, impacts, lost, pipe, row, rows
+from chromium import ask, assert_quiet, beyond_the_edge, needs_chromium, opened
+from matplotlib.figure import Figure
+from report_fixtures import KEPT, METHODS, impacts, lost, pipe, row, rows, studies
 
+from bent_beam_programs.report import page
 from bent_beam_programs.report.impacts import FRAMES, SHOWN, acceleration_rows, energies, theory_of
-from bent_beam_programs.report.page import Content, render
-from bent_beam_programs.report.rows import TableRow, first_order_rows, headline, leading_rows, summary
-from bent_beam_programs.report.studies import stored_numbers
+from bent_beam_programs.report.rows import (
+    PATHS,
+    TableRow,
+    first_order_rows,
+    headline,
+    leading_rows,
+    report_questions,
+    summary,
+)
+from bent_beam_programs.report.studies import stored_numbers, stored_studies
 from bent_beam_programs.report.whole import TIMES
 from bent_beam_programs.report.work import stored_measurements
+from comparison.figures import style
+from comparison.methods import methods_of
 from comparison.predicting import predict_case
+from comparison.store import RunStore
 from comparison.texts import prediction_text
 
 VOID = {"meta", "link", "br", "img", "input", "line", "circle", "rect", "path"}
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory: pytest.TempPathFactory) -> SimpleNamespace:
+    """Of made-up rows, one of which failed, real impacts on coarse meshes, and all that is stored.
+
+    ``found`` is what the writer returned, ``seen`` its progress, ``nasty`` the text that came from files and methods.
+    """
+    nasty = "<script>alert('x')</script> & \"quotes\" </script>"
+    folder, every = tmp_path_factory.mktemp("report"), [*rows(), lost("exudyn", 0.3, nasty)]
+    seen: list[tuple[int, int]] = []
+    every[0].warnings.append(nasty)
+    stored = [*stored_studies(), *stored_studies(studies(folder, nasty))]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setitem(style.RC, "figure.constrained_layout.use", False)  # layouts take longer than the page
+        patch.setattr(Figure, "draw_without_rendering", lambda figure: None)
+        patch.setattr(page, "match", lambda asked, *, progress, **_: progress(1, len(asked)) or every)
+        patch.setattr(page, "warm_up", lambda methods: None)
+        patch.setattr(page, "show_all", lambda *_, **__: (list(impacts()), [nasty]))
+        patch.setattr(page, "pipe_prediction", lambda store: pipe())
+        patch.setattr(page, "stored_studies", lambda: stored)
+        methods = methods_of(PATHS)
+        asked, store = report_questions(methods, (0.5, 1.0)), RunStore(None)
+        found = page.write_report(folder, methods, asked, store=store, progress=lambda *of: seen.append(of))
+    file = folder / "index.html"
+    text = file.read_text()
+    return SimpleNamespace(found=found, seen=seen, file=file, text=text, nasty=nasty, studies=stored, asked=asked)
 
 
 def seen(page: str) -> str:
@@ -86,7 +127,7 @@ def test_report_is_written_when_rows_fail(written: Any, text: str) -> None:
     assert found["failures"][0]["reason"] == written.nasty
     assert found["headline"] in text and "Rows failed: 1." in found["headline"]
     assert written.seen[-1][0] == written.seen[-1][1]
-    assert "Rows failed: 1." in seen(render(Content(rows=[lost("hermite", 0.5, "no reason")])))
+    assert "Rows failed: 1." in seen(page.render(page.Content(rows=[lost("hermite", 0.5, "no reason")])))
 
 
 def test_questions_ask_every_method_the_same(written: Any) -> None:
@@ -169,3 +210,53 @@ def test_acceleration_into_the_wall_spreads_the_zone_and_one_away_from_it_lifts_
         assert (pressed["uniform"], pressed["theory"], released["theory"]) == ("1.00", "1.00", "0.00")
         assert pressed["zone"].startswith("+") and pressed["reaction"].startswith("+")
         assert released["zone"].startswith("−") and released["reaction"].startswith("−")
+
+
+@pytest.fixture(scope="module")
+def browser(chromium: Any, written: Any) -> Any:
+    return opened(chromium, written.file.as_uri(), 390)
+
+
+@needs_chromium
+@pytest.mark.parametrize("width", [1400, 390])
+def test_everything_is_drawn_without_errors_or_requests_and_nothing_overflows_or_is_lost(browser, written, width):
+    opened(browser, written.file.as_uri(), width)
+    assert beyond_the_edge(browser, "section, header, p, h2, .plot, table") == []
+    cut = "[...document.querySelectorAll('.scroll > table')].filter(e => e.offsetParent)"
+    assert ask(browser, f"{cut}.filter(e => e.scrollWidth > e.parentElement.clientWidth + 1).map(e => e.id)") == []
+    drawn = "[...document.querySelectorAll('.plot')].map(e => e.querySelectorAll('polyline').length > 1)"
+    assert all(ask(browser, drawn)) and len(ask(browser, drawn)) >= 5
+    keys = "[...document.querySelectorAll('.plot')].every(e => e.querySelectorAll('.key span').length > 1)"
+    assert ask(browser, keys)  # each has its legend
+    cells = "[...document.querySelectorAll('#summary-table td, #leading-table td, #pipe-table td')]"
+    assert ask(browser, f"{cells}.filter(e => e.offsetParent === null).length") == 0  # no column is lost on a phone
+    assert ask(browser, "[...document.querySelectorAll('td.path a')].map(e => e.offsetParent !== null)") == [True]
+    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})  # paper has no controls
+    assert ask(browser, "[...document.querySelectorAll('.plot')].every(e => e.offsetParent === null)")
+    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
+    assert_quiet(browser)
+
+
+def front(browser: Any) -> float:
+    """Half contact length as the table reads it."""
+    return float(ask(browser, "document.querySelector('#readout tr:nth-child(2) td').textContent"))
+
+
+@needs_chromium
+def test_slider_moves_the_contact_front_and_other_impacts_can_be_chosen(browser: Any) -> None:
+    last = int(ask(browser, "Number(document.getElementById('time').max)"))
+    move = "const s = document.getElementById('time'); s.value = arguments[0]; s.dispatchEvent(new Event('input'))"
+    fronts, instants = [], []
+    for place in (0, last // 2, last):
+        browser.execute_script(move, place)
+        fronts.append(front(browser))
+        instants.append(ask(browser, "document.getElementById('instant').textContent"))
+    assert fronts[0] < fronts[1] < fronts[2] and len(set(instants)) == 3
+    assert fronts[2] == pytest.approx(0.3222, rel=0.01)  # λ₀√0.1 at κ/ν = 0.5
+    found = {}
+    for index in (0, 1, 2):  # without acceleration, into the wall, away from it
+        browser.execute_script(f"document.querySelectorAll('input[name=impact]')[{index}].click()")
+        found[index] = front(browser)
+    assert found[2] < found[0] < found[1]
+    lines = ask(browser, "[...document.querySelectorAll('#beam .key span')].map(e => e.textContent)")
+    assert {"theory", "Self-similar", "Hermite"} <= set(lines)  # side by side, on one timeline
