@@ -3,7 +3,7 @@
 import dataclasses
 import json
 import math
-import os
+import pickle
 
 import numpy as np
 import pytest
@@ -191,18 +191,16 @@ def test_the_sooner_a_run_ends_the_finer_are_its_elements(share, times) -> None:
     assert whole.run_by.mesh.element_length / early.run_by.mesh.element_length == pytest.approx(times)
 
 
-class Mortal(HermiteFE):
-    """Runs in the process that its label names: any other dies."""
+def test_runs_whose_processes_die_are_told_and_one_that_is_left_is_no_band(monkeypatch) -> None:
+    """Deaths of real processes: ``test_workers.py``."""
 
-    def simulate_to_separation(self, impact, **more):
-        if self.label != str(os.getpid()):
-            os._exit(9)
-        return super().simulate_to_separation(impact, **more)
+    def all_die(function, calls, *, jobs, on_death, **_):
+        assert jobs == 2 and pickle.loads(pickle.dumps((function, calls))) == (function, calls), "as they go there"
+        return [on_death(number, "the worker died") for number in range(len(calls))]
 
-
-def test_runs_whose_processes_die_are_told_and_one_that_is_left_is_no_band() -> None:
-    found = bounce(problem(2.0, 0.0), Mortal(mesh=UniformMesh(0.1), label=str(os.getpid())), runs=3, jobs=2)
-    assert sum(line.startswith("no companion run") for line in found.warnings) == 2
+    monkeypatch.setattr("comparison.runs.run_all", all_die)
+    found = bounce(problem(2.0, 0.0), HermiteFE(mesh=UniformMesh(0.1)), runs=3, jobs=2)
+    assert sum(line.startswith("no companion run") and "the worker died" in line for line in found.warnings) == 2
     assert found.numbers["restitution"].value is None
 
 
