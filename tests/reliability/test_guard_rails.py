@@ -28,7 +28,6 @@ DAMPED = "beam.curvature=0.1 beam.damping=0.01"  # η = 0.01 t*: bending runs 0.
 @pytest.mark.parametrize(
     ("path", "settings", "length", "words"),
     [
-        ("hermite", "run.duration=0.01", 1.0, "ends of the beam"),
         ("hermite", "run.duration=3.0", 20.0, "ends of the beam"),
         ("hermite", UNIFORM + "2.0", 20.0, "cannot resolve the contact front"),
         ("hermite", LONG_STEPS, 20.0, "time steps cannot resolve"),
