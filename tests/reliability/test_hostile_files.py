@@ -216,12 +216,6 @@ def test_no_text_acts_on_the_terminal(words, code):
     assert "u202e" in out + err and all(c.isprintable() or c == "\n" for c in out + err), (out, err)
 
 
-@pytest.mark.parametrize("label", [EVIL, r"$\frac{$ <b>"])
-def test_a_label_holds_neither_control_characters_nor_mathematics(label, tmp_path):
-    (tmp_path / "methods.toml").write_text(f'[[method]]\npath = "hermite"\nlabel = {json.dumps(label)}\n')
-    assert "label must" in refused("match", "--methods", tmp_path / "methods.toml", "--kappa-over-nu", "2")
-
-
 def test_a_file_whose_reading_hangs_or_crashes_is_no_history(tmp_path, monkeypatch):
     os.mkfifo(tmp_path / "pipe.nc")  # nobody writes into it
     assert "no regular file" in refusal(tmp_path / "pipe.nc")
