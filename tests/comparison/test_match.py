@@ -117,7 +117,7 @@ def test_what_fails_is_a_row_with_its_reason(tmp_path, monkeypatch):
     document = json.loads((tmp_path / "match.json").read_text())
     assert document["rows"][1]["r0"] == {"value": None, "error": None, "theory": rows[0].r0.theory}
     assert [f["label"] for f in document["failures"]] == ["fails", "creeps"]  # what refuses says so before the run
-    assert all(r.reason in match_table(rows) for r in rows if r.reason)
+    assert all(r.reason in match_table(rows) for r in rows if r.reason) and "refined 1 times" not in match_table(rows)
 
 
 def test_the_plot_shows_what_was_measured_and_says_what_is_missing_of_nothing_else():
