@@ -32,7 +32,6 @@ BINS = 60
 INSTANTS = 400
 END = 0.1  # τ
 START = 0.1  # of the way in √τ, the first frame
-THEORY_TIMES = 14  # between which the theory's shape is interpolated in x/√τ
 
 ENERGIES: dict[str, dict[str, Any]] = {  # what a method may report → how it is drawn
     name: {"title": title, "colour": colour, "dash": name.startswith("loss")}
@@ -153,8 +152,8 @@ def theory_of(shown: Shown) -> dict[str, Any]:
     tau, x = frames(), places(shown)
     root = np.sqrt(tau)
     fields = ImpactFields(exact, shown.epsilon, tolerance=1e-7)
-    # at leading order the shape is one function of x/√τ; the first order adds a part that grows with τ
-    times = np.linspace(tau[0], tau[-1], THEORY_TIMES if shown.epsilon else 1)
+    # at leading order the shape is one function of x/√τ; the first order adds a part in proportion to τ
+    times = tau[[0, -1]] if shown.epsilon else tau[:1]
     near = 4.0 * max(float(exact.lambda0), 0.5)  # in front of the contact the shape bends most
     z = np.concatenate([np.linspace(0.0, near, 91), np.geomspace(near, max(x[-1] / root[0], 2.0 * near), 31)[1:]])
     profiles = -fields.beam(z[None, :] * np.sqrt(times)[:, None], times[:, None]).deflection / times[:, None]

@@ -50,7 +50,6 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> SimpleNamespace:
     with pytest.MonkeyPatch.context() as patch:
         patch.setitem(style.RC, "figure.constrained_layout.use", False)  # layouts take longer than the page
         patch.setattr(Figure, "draw_without_rendering", lambda figure: None)
-        patch.setattr("bent_beam_programs.report.impacts.THEORY_TIMES", 2)  # its shape over x/√τ is linear in time
         patch.setattr(page, "match", lambda asked, *, progress, **_: progress(1, len(asked)) or every)
         patch.setattr(page, "warm_up", lambda methods: None)
         patch.setattr(page, "show_all", lambda *_, **__: (list(impacts()), [nasty]))
