@@ -51,14 +51,16 @@ def differences(field, x, t, h):
 
 
 X = np.linspace(0.013, 0.987, 41)
-BARS = [
-    (ReleasedBar(), 1.0, 1.0, np.array([0.3, 0.8, 1.21, 1.7, 2.4, 2.9, 4.33, 302.1])),
-    (FlyingBar(1.0, 4.0, 1.0, 0.5, 0.2), 2.0, 4.0, np.array([0.1, 0.5, 0.75, 1.02, 1.33, 1.7])),
-]
 
 
-@pytest.mark.parametrize(("bar", "speed", "stiffness", "times"), BARS)
-def test_bars_carry_waves(bar: ReleasedBar, speed: float, stiffness: float, times: np.ndarray) -> None:
+@pytest.mark.parametrize(
+    ("bar", "speed", "stiffness", "times"),
+    [
+        (ReleasedBar(), 1.0, 1.0, [0.3, 0.8, 1.21, 1.7, 2.4, 2.9, 4.33, 302.1]),
+        (FlyingBar(1.0, 4.0, 1.0, 0.5, 0.2), 2.0, 4.0, [0.1, 0.5, 0.75, 1.02, 1.33, 1.7]),
+    ],
+)
+def test_bars_carry_waves_and_keep_signorini_their_momentum_and_energy(bar, speed, stiffness, times) -> None:
     # u_t and u_x are the derivatives of u, and are carried along the characteristics, away from the kinks
     x, t = np.meshgrid(X, times)
     fine = np.ones(x.shape, dtype=bool)
@@ -76,10 +78,6 @@ def test_bars_carry_waves(bar: ReleasedBar, speed: float, stiffness: float, time
         places = ((x, t), (x + sign * speed * step / 4, t + step / 4))
         waves = [bar.velocity_at(*place) - sign * speed * bar.strain(*place) for place in places]
         np.testing.assert_allclose(waves[1][inside], waves[0][inside], atol=1e-13)
-
-
-@pytest.mark.parametrize(("bar", "speed", "stiffness", "times"), BARS)
-def test_bars_keep_signorini_and_their_momentum_and_energy(bar, speed, stiffness, times):
     fine = np.linspace(0.0, 3.0, 1201) + 1e-5
     gap, reaction = bar.displacement(0.0, fine), bar.reaction(fine)
     assert np.all(gap >= -1e-14) and np.all(reaction >= 0.0)

@@ -63,8 +63,6 @@ def test_multiple_scales_stay_true_where_the_regular_expansion_grows() -> None:
     exact = examples.duffing_numerical(times, epsilon)
     regular = np.abs(examples.duffing_regular(times, epsilon) - exact)
     scales = np.abs(examples.duffing_multiple_scales(times, epsilon) - exact)
-    assert np.max(np.abs(examples.duffing_regular(times, epsilon))) > 2.0
-    assert np.max(np.abs(examples.duffing_multiple_scales(times, epsilon))) < 1.0 + 1e-12
     assert np.max(scales) < 0.2 < 1.5 < np.max(regular)
     times = np.linspace(0.0, 3.0, 31)  # both are of second order at a fixed time
     for expansion in (examples.duffing_regular, examples.duffing_multiple_scales):
