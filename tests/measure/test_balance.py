@@ -18,8 +18,6 @@ from hermite_fe import HermiteFE
 from self_similar_fe import ExpandingMesh, SelfSimilarFE
 
 WHOLE = Impact.whole_beam(0.5, relative_damping=1e-2)
-
-
 TAUT = {"axial_force": 3.0}  # along x it takes nothing of the momentum, along the bow's ends −NKL t
 LOADS = [{}, {"acceleration": 5.0}, TAUT | {"fourth_derivative": 2.0}, TAUT | {"tension_direction": "tangent"}]
 
@@ -73,13 +71,12 @@ def test_part_of_a_long_beam_an_expanding_mesh_and_a_beam_under_tension_keep_the
     assert balance_of(method.simulate(bent, end_time=0.005, save=20)).momentum is None
 
 
-@pytest.mark.parametrize("chi", [0.5, -0.5])
-def test_a_free_end_that_loses_its_rate_of_curvature_within_an_element_is_not_asked_for_momentum(chi) -> None:
-    long = Impact.dimensionless(0.5, epsilon_chi=chi)
+def test_a_free_end_that_loses_its_rate_of_curvature_within_an_element_is_not_asked_for_momentum() -> None:
+    long = Impact.dimensionless(0.5, epsilon_chi=-0.5)
     free = HermiteFE().simulate(long, end_time=0.1, save=100)
     assert balance_of(free).momentum is None and balance_of(free).warnings == []
     assert balance_of(HermiteFE(domain=6.0).simulate(long, end_time=0.1)).momentum < 5e-4  # ends that follow lose none
-    whole = WHOLE.replace(curvature_rate=chi)
+    whole = WHOLE.replace(curvature_rate=-0.5)
     run = HermiteFE(mesh=UniformMesh(1.0 / 50)).for_whole_beam(whole).simulate(whole, end_time=0.1)
     assert 0.0 < balance_of(run).momentum < 5e-4
 

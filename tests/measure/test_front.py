@@ -7,22 +7,19 @@ from histories import history_of
 from bent_beam import Impact, ImpactHistory
 from bent_beam.measure.force_map import force_map, spread
 from bent_beam.measure.instant import instant, largest_moment
-from bent_beam.measure.moments import first_front, half_contact_length, jump_of_rim, lift, mean_reaction, unresolved
+from bent_beam.measure.moments import first_front, half_contact_length, jump_of_rim, mean_reaction, unresolved
 from bent_beam.measure.reduction import pull_of, rise_between, wall_peaks
 from hermite_fe import HermiteFE
-from hermite_fe.integrators import MoreauJean
 
 
 def test_the_lift_at_a_time_is_the_largest_of_the_last_decade() -> None:
-    impact = Impact.dimensionless(0.3, length=20.0)
-    history = HermiteFE(refine=0.25, integrator=MoreauJean()).simulate(impact, end_time=0.11, save=200)
-    late, lifts = (history.time >= 0.01) & (history.time <= 0.1), lift(history)
-    found = instant(history, 0.1, first_spread=True).lift
-    assert found == pytest.approx(lifts[late].max(), rel=1e-9) and 0.0 < found < 0.5 * lifts.max()
+    """It grows as t², but for one of 4 at 0.04."""
     time, x = np.linspace(0.0, 1.0, 101), np.linspace(0.0, 1.0, 101)
     spreads = np.diff(np.minimum(np.sqrt(time)[:, None], np.append(x, 1.1)), axis=1)
-    grows = history_of(time, x, impulse=spreads, gap=np.outer(time**3, np.ones(101)))  # a lift of t²
-    assert [instant(grows, t, first_spread=True).lift for t in (0.3, 0.5)] == pytest.approx([0.09, 0.25])
+    gap = np.outer(np.where(time == 0.04, 0.16, time**3), np.ones(101))
+    run = history_of(time, x, impulse=spreads, total_impulse=2.0 * np.sqrt(time), gap=gap)
+    lifts = [instant(run, t, first_spread=True).lift for t in (0.3, 0.395, 0.405, 0.5)]
+    assert lifts == pytest.approx([4.0, 4.0, 0.16, 0.25])
 
 
 def test_a_middle_that_lifts_off_does_not_shorten_the_contact_and_a_late_push_alone_makes_it() -> None:
@@ -128,14 +125,16 @@ def test_the_largest_until_a_time_between_saved_instants_is_that_of_the_steps_un
 
 
 def test_a_moment_that_passes_its_earlier_largest_between_saved_instants_is_interpolated_itself() -> None:
-    """It is 0.9 at 2 s and 1.5 at 3 s, and the largest before was 1.2: that stands until 2.5 s, with its place."""
+    """It is 0.9 at 2 s and 1.5 at 3 s, and the largest before was 1.2: that stands until 2.5 s, with its place. The
+    first, at 1 s, is there at once: it does not grow from 0."""
     time, moment = np.arange(5.0), np.array([0.0, 1.2, 0.9, 1.5, 1.0])
     told = {"largest_moment": moment, "largest_midspan_moment": moment, "largest_moment_place": 0.1 * time}
     run = history_of(time, np.linspace(0.0, 1.0, 5), impact=Impact.whole_beam(2.0), **told)
-    found = [largest_moment(run, at) for at in (2.0, 2.4, 2.6, 2.9, 3.0, 3.5)]
-    assert [one.moment for one in found] == pytest.approx([1.2, 1.2, 1.26, 1.44, 1.5, 1.5])
-    assert [one.place for one in found] == pytest.approx([0.1, 0.1, 0.3, 0.3, 0.3, 0.3])
-    assert all(one.time <= at for one, at in zip(found, (2.0, 2.4, 2.6, 2.9, 3.0, 3.5)))
+    times = (0.6, 2.0, 2.4, 2.6, 2.9, 3.0, 3.5)
+    found = [largest_moment(run, at) for at in times]
+    assert [one.moment for one in found] == pytest.approx([1.2, 1.2, 1.2, 1.26, 1.44, 1.5, 1.5])
+    assert [one.place for one in found] == pytest.approx([0.1, 0.1, 0.1, 0.3, 0.3, 0.3, 0.3])
+    assert all(one.time <= at for one, at in zip(found, times))
 
 
 def test_a_force_of_the_wall_that_passes_its_earlier_largest_between_saved_instants_is_interpolated_itself() -> None:
@@ -153,14 +152,6 @@ def test_a_force_of_the_wall_that_passes_its_earlier_largest_between_saved_insta
     assert [one.peak_force for one in found] == pytest.approx([1.1, 1.1, 1.2, 1.3])
     assert [one.peak_penetration for one in found] == pytest.approx([0.55, 0.55, 0.6, 0.65])
     assert [one.peak_force_time for one in found] == pytest.approx([1.0, 1.0, 4.75, 5.0])
-
-
-def test_the_largest_moment_of_the_first_instants_is_not_interpolated_from_before_the_impact() -> None:
-    """It is there at once, V₀√(EIμ) of one point, and does not grow from 0 to the first saved instant."""
-    fine, coarse = (HermiteFE().simulate(Impact.whole_beam(2.0), end_time=0.004, save=n) for n in (400, 3))
-    early = 0.5 * float(coarse.time[1])
-    assert instant(coarse, early).peak_moment == pytest.approx(instant(fine, early).peak_moment, rel=0.03)
-    assert instant(coarse, early).peak_moment > 0.9
 
 
 def test_a_force_that_is_largest_at_the_end_of_a_run_acts_where_the_wall_pushed_last() -> None:
