@@ -56,11 +56,12 @@ def recorded(time: Any, impulse: Any, *, gap: Any = 0.0, velocity: Any = 0.0, mo
     return history_of(time, **(known | {"slope": still, "kinetic_energy": one, "strain_energy": 0.0 * one} | other))
 
 
-def pushed_until(end: float, *, last: float = 2.0, again: float | None = None) -> ImpactHistory:
-    """A rigid beam, pushed from first touch to ``end`` and as long from ``again`` on at 5.8 μℓV₀ a T*. Times in T*."""
+def pushed_until(end: float, *, last: float = 2.0, again: float | None = None, **other: Any) -> ImpactHistory:
+    """A rigid beam, pushed from first touch to ``end`` and as long from ``again`` on at 5.8 μℓV₀ a T*, saved 20 times a
+    T*. Times in T*. other : of :func:`recorded`."""
     time = np.linspace(0.0, last, round(20 * last) + 1)
     push = 2.9 * np.minimum(time, end)
     if again is not None:
         push += 2.9 * np.clip(time - again, 0.0, end)
     gap, velocity = np.maximum(time - end, 0.0)[:, None], 1.0 - push[:, None]
-    return recorded(time, np.outer(push, np.eye(5)[0]), gap=gap, velocity=velocity)
+    return recorded(time, np.outer(push, np.eye(5)[0]), gap=gap, velocity=velocity, **other)

@@ -2,13 +2,14 @@
 
 from dataclasses import replace
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 from histories import history_of
 
 from bent_beam import Impact, ImpactHistory
-from bent_beam.measure.balance import balance_of
+from bent_beam.measure.balance import Balance, balance_of
 from bent_beam.measure.limits import limited_as
 from bent_beam.measure.reduction import peak_moment
 from bent_beam.meshes import UniformMesh
@@ -31,25 +32,28 @@ def test_a_run_keeps_its_momentum_and_a_falsified_impulse_energy_or_gap_shows_in
     assert (sound.second_moment is None) == (impact.axial_force != 0.0)
     assert impact.axial_force or sound.second_moment < 5e-4
     data = history.dataset
-    more = balance_of(ImpactHistory.of(data.assign(total_impulse=1.1 * data["total_impulse"])))
+
+    def falsified(**fields: Any) -> Balance:
+        return balance_of(ImpactHistory.of(data.assign(**fields)))
+
+    more = falsified(total_impulse=1.1 * data["total_impulse"])
     assert more.momentum == pytest.approx(1.0 / 11.0, abs=1e-3) and more.points == pytest.approx(-1.0 / 11.0)
     assert "the residual is 9.1 % of the impulse" in more.warnings[0]
-    late = data.assign(total_impulse=data["total_impulse"].where(data["time"] > 0.05, 0.0))  # before, it does not count
-    assert balance_of(ImpactHistory.of(late)).momentum == sound.momentum
-    second = data.assign(opposite_impulse=0.1 * data["impulse"], total_impulse=0.9 * data["total_impulse"])
-    assert balance_of(ImpactHistory.of(second)).points == pytest.approx(0.0, abs=1e-9)
-    less = balance_of(ImpactHistory.of(data.assign(kinetic_energy=0.97 * data["kinetic_energy"])))
+    late = falsified(total_impulse=data["total_impulse"].where(data["time"] > 0.05, 0.0))
+    assert late.momentum == sound.momentum  # before, it does not count
+    second = falsified(opposite_impulse=0.1 * data["impulse"], total_impulse=0.9 * data["total_impulse"])
+    assert second.points == pytest.approx(0.0, abs=1e-9)
+    less = falsified(kinetic_energy=0.97 * data["kinetic_energy"])
     assert less.initial_energy == pytest.approx(-0.03, abs=1e-9) and "mass is missing" in less.warnings[0]
-    assert balance_of(ImpactHistory.of(data.assign(gap=data["gap"] + 0.01))).gap_of_push > 0.03
+    assert falsified(gap=data["gap"] + 0.01).gap_of_push > 0.03
     assert balance_of(ImpactHistory.of(data.isel(time=slice(2, None)))).initial_energy is None
-    in_wall = balance_of(ImpactHistory.of(data.assign(gap=data["gap"] - 0.01)))
+    in_wall = falsified(gap=data["gap"] - 0.01)
     assert in_wall.penetration > 0.03 and any("in the wall" in line for line in in_wall.warnings)
+    turned = falsified(slope=data["slope"] + 0.1 * float(np.abs(data["slope"]).max()))
     assert sound.middle_slope < 1e-9
-    largest = float(np.abs(data["slope"]).max())
-    turned = balance_of(ImpactHistory.of(data.assign(slope=data["slope"] + 0.1 * largest)))
     assert turned.middle_slope == pytest.approx(0.1, rel=0.15) and turned.warnings
     if impact.acceleration:
-        worked = balance_of(ImpactHistory.of(data.assign(work_of_loads=1.1 * data["work_of_loads"])))
+        worked = falsified(work_of_loads=1.1 * data["work_of_loads"])
         assert worked.energy > 1e-2 and any("not accounted for" in line for line in worked.warnings)
 
 

@@ -49,10 +49,10 @@ def synthetic(kappa, first=(0.0, 0.0, 0.0), epsilon=0.0, noise=0.0, seed=0):
     return history_of(tau, x, impact=impact, impulse=impulse, total_impulse=2.0 * impulse.sum(axis=1))
 
 
-def pressed(uniform=True, first=(1.0, 0.5, 0.0)):
-    """A base, its leading order, and one run at ε = 0.1 with ``first``."""
+def pressed(uniform=True, first=(1.0, 0.5, 0.0), epsilons=(0.1,)):
+    """A base, its leading order, and runs at ``epsilons`` with ``first``."""
     base = moments(synthetic(0.5))
-    return base, leading_order(base), [(0.1, moments(synthetic(0.5, first, 0.1), uniform=uniform))]
+    return base, leading_order(base), [(e, moments(synthetic(0.5, first, e), uniform=uniform)) for e in epsilons]
 
 
 @pytest.mark.parametrize("kappa", [0.05, 0.3, 0.8])
@@ -128,10 +128,8 @@ def test_a_run_that_drifts_within_its_window_has_a_bar_for_it():
 
 @pytest.mark.parametrize("first", [(4.0, 0.0, 0.0), (1.0, 1.0, 1.0), (-1.0, -1.0, 0.0), (0.0, 0.0, 1.0)])
 def test_first_order_is_recovered_with_and_without_uniform_reaction(first):
-    exact = contact_parameters(0.5, *first)
-    base = moments(synthetic(0.5))
-    leading = leading_order(base)
-    found = first_order([(e, moments(synthetic(0.5, first, e), uniform=True)) for e in (0.05, 0.1)], base, leading)
+    exact, (base, leading, runs) = contact_parameters(0.5, *first), pressed(first=first, epsilons=(0.05, 0.1))
+    found = first_order(runs, base, leading)
     assert found.r1.value == pytest.approx(exact.r1, abs=0.01 * max(abs(exact.r1), 1.0))
     assert found.lambda1.value == pytest.approx(exact.lambda1, abs=0.02 * max(abs(exact.lambda1), 1.0))
     assert found.uniform_reaction == pytest.approx(max(first[0] + first[1], 0.0), abs=0.02)
@@ -144,13 +142,12 @@ def test_first_order_is_recovered_with_and_without_uniform_reaction(first):
 
 def test_noise_of_a_run_counts_in_proportion_to_its_epsilon():
     """An error of either run is the same share of what both measure: r₁ is 11.66 for 10.69 at most."""
-    base = moments(synthetic(0.5))
+    base, leading, runs = pressed(first=(4.0, 0.0, 0.0), epsilons=(0.05, 0.1))
     spreads = []
     for disturbed in (0.05, 0.1):
-        runs = [(e, moments(synthetic(0.5, (4.0, 0.0, 0.0), e), uniform=True)) for e in (0.05, 0.1)]
         more = {e: 0.02 * run.tau**1.5 * (e == disturbed) for e, run in runs}
-        runs = [(e, dataclasses.replace(run, impulse=run.impulse + more[e])) for e, run in runs]
-        spreads.append(first_order(runs, base, leading_order(base)).r1.parts["spread"])
+        noisy = [(e, dataclasses.replace(run, impulse=run.impulse + more[e])) for e, run in runs]
+        spreads.append(first_order(noisy, base, leading).r1.parts["spread"])
     assert 0.5 < spreads[0] / spreads[1] < 2.0 and 0.01 < min(spreads) and max(spreads) < 2.0 * 0.96
 
 

@@ -6,8 +6,6 @@ import numpy as np
 import pytest
 from histories import pushed_until, recorded
 
-from bent_beam.as_json import json_text
-from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.measure.reduction import peak_moment
 from bent_beam.measure.whole_impact import hits, peak_times, pushes, whole_impact
@@ -112,9 +110,8 @@ def test_a_contact_before_one_wall_stays_one_while_the_other_pushes_too() -> Non
     for count in (41, 401):
         time = np.linspace(0.0, 1.0, count)
         front, behind = (np.outer(np.clip(time - at, 0.0, span), np.ones(5)) for at, span in ((0.0, 0.5), (0.2, 0.2)))
-        run = recorded(time, front, total_impulse=2.0 * (front - behind).sum(axis=1)).dataset
-        run["opposite_impulse"] = run["impulse"] * 0.0 + behind
-        found = hits(ImpactHistory.of(run))
+        total = 2.0 * (front - behind).sum(axis=1)
+        found = hits(recorded(time, front, total_impulse=total, opposite_impulse=behind))
         assert [hit.wall for hit in found] == ["front", "opposite"]
         assert [end for hit in found for end in (hit.begin, hit.end)] == pytest.approx([0.0, 0.5, 0.2, 0.4], abs=0.03)
 
@@ -126,10 +123,9 @@ def test_hits_are_contacts_whose_gaps_are_shorter_than_a_period_of_the_first_mod
     assert found.contacts == ((0.0, pytest.approx(0.5, abs=2.0 * found.within)),)
     assert found.contacts[-1][1] == found.last_contact == hits(twice)[0].end  # one last contact
     assert found.restitution == pytest.approx(0.45)
-    drawn = json_text(dataclasses.asdict(twice.impact.replace(acceleration=1e-9)))  # it may come back again
+    drawn = twice.impact.replace(acceleration=1e-9)  # it may come back again
     for later, gone in ((3.0, True), (1.0, False)):  # another hit tells that the first is over
-        run = pushed_until(0.5, last=later + 0.6, again=later).dataset.assign_attrs(impact=drawn)
-        known = whole_impact(ImpactHistory.of(run))
+        known = whole_impact(pushed_until(0.5, last=later + 0.6, again=later, impact=drawn))
         assert (known.left, known.separations, known.again, known.restitution is not None) == (False, 1, gone, gone)
     soon = whole_impact(pushed_until(0.5, last=4.0, again=1.0))
     assert np.array(soon.contacts) == pytest.approx(np.array([[0.0, 0.5], [1.0, 1.5]]), abs=2.0 * soon.within)
@@ -145,10 +141,10 @@ SHEARED = Impact(2.0, 1.0, 2.0, 0.5, 1.0, shear_stiffness=400.0, wall_curvature=
 
 @pytest.mark.parametrize("again", [3.0, 0.6])
 def test_what_springs_of_the_wall_hold_is_not_lost(again) -> None:
-    run = pushed_until(0.5, last=4.0, again=again)
-    time = run.dataset["time"]
+    time = np.linspace(0.0, 4.0, 81)
     held, lost, given = 0.05 * np.minimum(time, 1.1), 0.1 * (time > again), 0.03 * (time > 3.9)
-    run = ImpactHistory.of(run.dataset.assign(contact_energy=held, kinetic_energy=1.0 - held - lost + given))
+    energies = {"contact_energy": held, "kinetic_energy": 1.0 - held - lost + given}
+    run = pushed_until(0.5, last=4.0, again=again, **energies)
     found, hit = whole_impact(run), hits(run)[-1]
     assert found.energy_gain == pytest.approx(0.03) and (hit.energy, hit.lost) == pytest.approx((0.9, 0.1))
     assert found.drift["restitution"] == 0.0
@@ -236,11 +232,10 @@ def test_breaks_shorter_than_the_shortest_separation_are_none() -> None:
 
 def test_the_largest_force_is_told_in_half_the_beams_momentum_a_period() -> None:
     """μℓV₀/T*, the unit in which the rigid beam of two half lengths is pushed with 5.8."""
-    run, steady = pushed_until(0.3), np.full(41, 5.8)
-    peaks = dict.fromkeys(("peak_force", "peak_force_time", "peak_penetration", "peak_pressure"), ("time", steady))
-    assert whole_impact(run).peak_force is None
-    assert whole_impact(ImpactHistory.of(run.dataset.assign(peaks))).peak_force == pytest.approx(5.8)
-    told = dataclasses.replace(whole_impact(run), peak_force_time=0.5, peak_force_place=0.25, push_time=0.125)
+    peaks = dict.fromkeys(("peak_force", "peak_force_time", "peak_penetration", "peak_pressure"), np.full(41, 5.8))
+    rigid, soft = whole_impact(pushed_until(0.3)), whole_impact(pushed_until(0.3, **peaks))
+    assert rigid.peak_force is None and soft.peak_force == pytest.approx(5.8)
+    told = dataclasses.replace(rigid, peak_force_time=0.5, peak_force_place=0.25, push_time=0.125)
     assert list(peak_times(told, HEAVY).values()) == pytest.approx([9.0, 0.75, 2.25, 0.18])
 
 
@@ -256,10 +251,8 @@ def test_the_largest_push_of_a_wall_that_gives_way_lies_between_saved_instants()
 
 def test_the_last_contact_is_half_a_saved_interval_about_its_end_or_before_springs_one() -> None:
     """A rigid wall lets go between two saved instants, springs at the step that is taken for the end."""
-    run = pushed_until(0.3)
-    soft = run.impact.replace(wall_stiffness=1e3)
-    elastic = ImpactHistory.of(run.dataset.assign_attrs(impact=json_text(dataclasses.asdict(soft))))
-    assert (whole_impact(run).within, whole_impact(elastic).within) == pytest.approx((0.025, 0.05))
+    impacts = (Impact.whole_beam(2.0).replace(wall_stiffness=stiffness) for stiffness in (None, 1e3))
+    assert [whole_impact(pushed_until(0.3, impact=one)).within for one in impacts] == pytest.approx([0.025, 0.05])
 
 
 def test_a_beam_returns_where_it_is_nearest_to_the_wall_and_as_slowly_as_it_has_left_since() -> None:
