@@ -56,7 +56,6 @@ def test_the_range_of_the_loss_reaches_the_first_instants_of_a_fast_impact() -> 
     slow, fast = lossy(0.1), lossy(0.1).replace(velocity=100.0 * lossy(0.1).velocity)
     reached = [branches_of(impact).highest for impact in (slow, fast)]
     assert reached == pytest.approx([1e6 * first_mode(slow), 1e4 / (2.0 * math.pi * fast.time_scale)])
-    assert reached[1] > 10.0 * reached[0]
 
 
 def test_a_whole_impact_has_numbers_with_damping_or_a_loss_of_some_size_or_on_a_soft_wall() -> None:
