@@ -116,19 +116,16 @@ def test_a_beam_is_its_half_and_the_image_of_it_however_small_its_deflections_ar
     ],
 )
 def test_without_contact_y0_is_the_motion(element, psi, chi, tension, more):
-    """In units in which nothing is one, damped; what the run says of itself is true, and plain Exudyn does the same."""
+    """In units in which nothing is one, damped; what the run says of itself is true."""
     loads = {"epsilon_alpha": 0.4, "epsilon_psi": psi, "epsilon_chi": chi, "epsilon_axial": tension, "damping": 0.05}
     impact = in_units(Impact.dimensionless(0.5, **loads).replace(**more), OTHER)
     mesh = NodesMesh(tuple(np.linspace(0.0, 1.0, 41)))
     parts = {"mesh": mesh, "element": element, "contact": NO_WALL}  # both ends of cables, half a beam of the others
     parts |= {"end_time": 2.0, "full_beam": element == ANCFCable()}
-    history, model = simulate(impact, **parts), build(impact, **parts)
-    model.mbs.SolveDynamic(model.settings)
-    middle = model.mbs.GetSensorStoredData(model.sensors["midpoint"])[-1, 1:]
+    history = simulate(impact, **parts)
     x, t = history.array("x") / 0.5, history.time[-1] / 4.0
     y0 = t - 0.25 * x**2 + 0.2 * t**2 + 0.5 * chi * x**2 * t + psi * x**4 / 24
     slope = -0.5 * x + chi * x * t + psi * x**3 / 6.0 + (psi * x / 4.0 if more else 0.0)  # and l_s² y‴
-    assert middle == pytest.approx([0.5 * (t + 0.2 * t**2), 0.125 * (1.0 + 0.4 * t)], rel=5e-4)
     exact = psi and element == ANCFCable()  # but for its shape: cubics under a quartic, no axial force
     assert_allclose(-history.array("gap")[-1] / 0.5, y0, atol=2e-5 if exact else 2e-4)
     assert_allclose(history.array("velocity")[-1] / 0.125, 1.0 + 0.4 * t + 0.5 * chi * x**2, atol=1e-3)

@@ -82,6 +82,7 @@ REFUSED = [
     (lambda: asked(SHEARED, contact=SegmentFriction()), "cables" + WAY),
     (lambda: asked(SHORT, element=ANCFCable(axial_stiffness=1e5)), "axial_stiffness has no effect without axial_force"),
     (lambda: asked(SHORT.replace(axial_force=5.0), element=ANCFCable(axial_stiffness=10.0)), "must be 5000 N at least"),
+    (lambda: ExudynModel().simulate_to_separation(HINGED), "supports bring the beam back"),
     # what only simulate can do
     *((lambda contact=contact: exudyn_models.build(SHORT, mesh=MESH, contact=contact), "use simulate")
       for contact in (Rigid(), Penalty(hold=4), Penalty(hold_start=0.01))),
