@@ -11,7 +11,7 @@ import pytest
 from hermite_parts import ALL, DROP, FIRST_ORDER, GRAVITY, WITH_IMPACT_LAW, Make, account, ball, chain, defined_in
 
 from bent_beam import Impact, SimulationError
-from bent_beam.meshes import ScaleFreeMesh, UniformMesh
+from bent_beam.meshes import UniformMesh
 from hermite_fe import HermiteFE, simulate
 from hermite_fe.constraints import ContactLaw
 from hermite_fe.contacts import NodeContact
@@ -24,13 +24,13 @@ from hermite_fe.system import ContactRows, System
 from theory.ladder import BouncingBall
 
 START = np.array([0.5, -0.2]), np.array([0.0, 1.0])
-
-
 GUIDES = defined_in("guide/add-integrator.md")["NewmarkProjection"]
 of_the_guide = pytest.param(GUIDES, id="the guide's", marks=pytest.mark.verify)  # compiled anew each time
+every = pytest.mark.parametrize("make", ALL.values(), ids=ALL)
+every_and_the_guide_s = pytest.mark.parametrize("make", [*ALL.values(), of_the_guide])
 
 
-@pytest.mark.parametrize("make", [*(pytest.param(make, id=name) for name, make in ALL.items()), of_the_guide])
+@every_and_the_guide_s
 def test_order_in_smooth_motion(make: Make) -> None:
     order = 1 if make in [ALL[name] for name in FIRST_ORDER] else 2
     system = chain(100.0, [[1.0, 2.0], [0.5, -0.3]])
@@ -51,9 +51,7 @@ def test_lasting_contact_is_second_order_with_reactions_in_the_smooth_motion() -
 
 
 @pytest.mark.parametrize("restitution", [0.0, 0.5])
-@pytest.mark.parametrize(
-    "make", [*(pytest.param(make, id=name) for name, make in WITH_IMPACT_LAW.items()), of_the_guide]
-)
+@pytest.mark.parametrize("make", [*WITH_IMPACT_LAW.values(), of_the_guide])
 def test_an_oscillator_leaves_its_stop_with_the_restitution(make: Make, restitution: float) -> None:
     """Every half period an impact at v = 2A, then amplitude e·A."""
     oscillator = System(mass=[[2.0]], stiffness=[[8.0]], contacts=ContactRows([[0]], [[1.0]], [0.0]))  # ω = 2
@@ -115,15 +113,6 @@ def test_saved_instants_go_as_squares_and_each_tells_how_far_the_run_is() -> Non
     assert told == pytest.approx(run.time / 1.2)
 
 
-@pytest.mark.verify
-def test_the_guide_s_integrator_gives_the_impulse_of_the_impact() -> None:
-    impact, mesh = Impact.dimensionless(0.5, length=20.0), ScaleFreeMesh(element_length=2e-3, growth=1.02)
-    kinds = (GUIDES(time_step=2e-5, growth=4e-3), SignoriniPosition(time_step=1e-5, growth=2e-3))
-    new, known = (simulate(impact, end_time=0.1, mesh=mesh, integrator=kind) for kind in kinds)
-    assert new.array("total_impulse")[-1] == pytest.approx(known.array("total_impulse")[-1], rel=3e-3)
-    assert abs(new.energy_budget()["defect"]) < 1e-11 * new.energy_budget()["initial_energy"]
-
-
 def test_steps_grow_at_most_as_asked_and_refined_ones_are_as_many_times_shorter() -> None:
     integrator = GeneralizedAlphaPenalty(1e-3, growth=0.02, stiffness=1e5, damping=1e3)
     for finer in (1.0, 4.0):
@@ -157,10 +146,9 @@ def test_springs_settle_in_every_step_or_the_run_fails_by_name_and_their_rounds_
 
 
 STEP = 1e-3
-every = pytest.mark.parametrize("make", ALL.values(), ids=ALL)
 
 
-@every
+@every_and_the_guide_s
 def test_each_loss_is_booked_and_a_false_velocity_or_damping_is_missing_from_the_budget(make: Make) -> None:
     impact = Impact.dimensionless(0.5, length=2.0, damping=1e-3, epsilon_alpha=0.5)  # of all kinds, pressed on
     model = beam_model(impact, UniformMesh(0.05).nodes(1.0), NodeContact(), Sponge(), full=False)
