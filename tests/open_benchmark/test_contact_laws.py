@@ -5,13 +5,11 @@ the new position, on the same beam, mesh and steps (θ = 1, strict contact).
 """
 
 import os
-from collections.abc import Sequence
 
 from bent_beam import Impact
 from bent_beam.meshes import UniformMesh
 from bent_beam_programs.open_benchmark.histories import result_from_history
 from bent_beam_programs.open_benchmark.problem import problem
-from bent_beam_programs.open_benchmark.result import Result
 from bent_beam_programs.open_benchmark.score import score
 from hermite_fe import HermiteFE
 from hermite_fe.contacts import NodeContact
@@ -23,7 +21,7 @@ PROBLEMS = ("leading-0.5", "first-0.5-1-1-1", "first-0.5--1--1-0", "first-0.5--0
 STEPS = 160.0  # an element length: as the adapter of Siconos has them
 
 
-def _result(name: str, law: str, size: float) -> Result:
+def result_of(name, law, size):
     asked = problem(name)
     names = ("acceleration", "fourth_derivative", "curvature_rate", "axial_force")
     loads = {name: asked.epsilon * value for name, value in zip(names, asked.loads) if value}
@@ -34,10 +32,10 @@ def _result(name: str, law: str, size: float) -> Result:
     return result_from_history(method.simulate(impact, end_time=asked.end_time, save=600), asked)
 
 
-def errors_of(law: str, size: float, names: Sequence[str]) -> list[list[tuple[float | None, float | None]]]:
+def errors_of(law, size, names):
     """Relative errors and bars of λ₀ and r₀ without loads, then of λ₁ and r₁ of the problems named."""
-    base = _result(PROBLEMS[0], law, size)
-    scores = [score(base), *(score(_result(name, law, size), base) for name in names)]
+    base = result_of(PROBLEMS[0], law, size)
+    scores = [score(base), *(score(result_of(name, law, size), base) for name in names)]
     return [[(found.error(name), found.bar(name)) for name in list(found.measured)[-2:]] for found in scores]
 
 
