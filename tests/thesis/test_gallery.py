@@ -68,9 +68,7 @@ def test_every_figure_and_table_is_listed_in_the_order_of_the_thesis_and_in_the_
     assert all(f"| {entry['id']} | {entry['title']} |" in guide for entry in listing())
 
 
-def test_pictures_and_data_are_written_and_again_when_a_file_is_missing_or_sources_or_caption_changed(
-    tmp_path, monkeypatch
-):
+def test_pictures_and_data_are_written_anew_for_a_missing_file_other_sources_or_caption(tmp_path, monkeypatch):
     def entries(*names: str) -> dict[str, dict[str, Any]]:
         found, failures = draw_all(names, tmp_path)
         assert failures == []
