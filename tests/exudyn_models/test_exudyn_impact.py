@@ -241,9 +241,7 @@ def test_the_largest_moment_of_a_node_is_the_larger_of_its_two_sides():
         (0.0, 0.0, 0.1, 1e-2, {"contact": Penalty(relative_stiffness=3e3, relative_damping=0.0)}),
     ],
 )
-def test_explicit_steps_stay_stable_where_waves_along_the_beam_or_its_contact_are_the_fastest(
-    damping, force, end, within, fastest
-):
+def test_explicit_steps_stay_stable_where_axial_waves_or_contact_are_fastest(damping, force, end, within, fastest):
     """At the very bound, of elements whose free ends swing at √170 of their axial wave's rate, shorter than Λ."""
     beam = Impact.whole_beam(0.5, relative_damping=damping).replace(axial_force=force)
     parts = {"mesh": UniformMesh(beam.length / 16), "integrator": RK44(safety=1.0), "save": 20, **fastest}

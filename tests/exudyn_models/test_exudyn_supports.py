@@ -72,11 +72,9 @@ def test_both_paths_agree_on_every_number_of_a_damped_wall(seed: int, refine: fl
     draw = np.random.default_rng(seed)
     drawn = kappa_over_nu, ratio = float(draw.uniform(0.1, 2.0)), float(draw.uniform(0.1, 1.0))
     impact = Impact.dimensionless(kappa_over_nu).replace(wall_stiffness=1e4, wall_damping=200.0 * ratio)
-    exudyn, hermite = (
-        kind(refine=refine).simulate(impact, end_time=0.04, save=40) for kind in (ExudynModel, HermiteFE)
-    )
+    runs = [kind(refine=refine).simulate(impact, end_time=0.04, save=40) for kind in (ExudynModel, HermiteFE)]
     for name, within in WITHIN.items():
-        ours, theirs = exudyn.array(name)[-1], hermite.array(name)[-1]
+        ours, theirs = (run.array(name)[-1] for run in runs)
         assert ours == pytest.approx(theirs, rel=within), (name, drawn)
 
 
