@@ -1,12 +1,17 @@
-"""This project's integrators on the ladder's lower rungs, against the closed forms of ``theory``: observed orders, and
-energy after ten impacts.
+"""This project's integrators on problems of the benchmark.
 
+On the ladder's lower rungs, against the closed forms of ``theory``: observed orders, and energy after ten impacts.
 Ball, bar and string as :class:`hermite_fe.system.System`, the stopped beam as a run of the Hermite path. Errors are the
 mean of |J − J exact| over the record, over the largest J.
 
-``python tests/open_benchmark/test_ladder.py`` prints the table of docs/benchmark.md.
+Where loads act, the errors of a contact law on velocities, next to those of Signorini's condition at the new position,
+on the same beam, mesh and steps (θ = 1, strict contact).
+
+``python tests/open_benchmark/test_integrators.py`` and ``LAWS=0.04,0.02,0.01,0.005 pytest -s -k law`` print the tables
+of docs/benchmark.md.
 """
 
+import os
 from functools import partial
 
 import numpy as np
@@ -15,11 +20,14 @@ import pytest
 from bent_beam import Impact
 from bent_beam.measure.numbers import Number
 from bent_beam.meshes import UniformMesh
+from bent_beam_programs.open_benchmark.histories import result_from_history
 from bent_beam_programs.open_benchmark.problem import LADDER, problem
 from bent_beam_programs.open_benchmark.references import reference
+from bent_beam_programs.open_benchmark.score import score
 from hermite_fe import HermiteFE
 from hermite_fe.constraints import ContactLaw
 from hermite_fe.contacts import NodeContact
+from hermite_fe.far_fields import GridViscosity
 from hermite_fe.integrators import INTEGRATORS as KINDS
 from hermite_fe.run import integrate
 from hermite_fe.system import ContactRows, System
@@ -124,6 +132,45 @@ def test_the_wall_gives_the_impulse_of_the_closed_form(name):
         (coarse, _), (fine, energy) = (rung(INTEGRATORS[name], refine) for refine in (1, 4))
         assert fine < 0.7 * coarse < 0.02, rung
         assert energy <= 1.0 + 1e-9, rung
+
+
+LAWS = {"velocities (Moreau–Jean)": EVEN["moreau_jean"], "new position": EVEN["signorini_position"]}
+PROBLEMS = ("leading-0.5", "first-0.5-1-1-1", "first-0.5--1--1-0", "first-0.5--0.5-0-0-1")
+STEPS = 160.0  # an element length: as the adapter of Siconos has them
+
+
+def result_of(name, law, size):
+    asked = problem(name)
+    names = ("acceleration", "fourth_derivative", "curvature_rate", "axial_force")
+    loads = {name: asked.epsilon * value for name, value in zip(names, asked.loads) if value}
+    impact = Impact.dimensionless(asked.kappa_over_nu, length=8.0).replace(**loads)
+    scheme = LAWS[law](theta=1.0, time_step=asked.end_time / round(STEPS * asked.end_time / size))
+    contact, far_field = NodeContact(hold=0, hold_until=0.0), GridViscosity(viscosity=0.0, end="following")
+    method = HermiteFE(mesh=UniformMesh(size), integrator=scheme, contact=contact, far_field=far_field)
+    return result_from_history(method.simulate(impact, end_time=asked.end_time, save=600), asked)
+
+
+def errors_of(law, size, names):
+    """Relative errors and bars of λ₀ and r₀ without loads, then of λ₁ and r₁ of the problems named."""
+    base = result_of(PROBLEMS[0], law, size)
+    scores = [score(base), *(score(result_of(name, law, size), base) for name in names)]
+    return [[(found.error(name), found.bar(name)) for name in list(found.measured)[-2:]] for found in scores]
+
+
+def test_a_law_on_gaps_keeps_the_first_order_that_a_law_on_velocities_loses():
+    sizes = [float(size) for size in os.environ.get("LAWS", "0.02").split(",")]
+    names = PROBLEMS[1:] if "LAWS" in os.environ else PROBLEMS[1:2]
+    found = {(law, size): errors_of(law, size, names) for size in sizes for law in LAWS}
+    print("\n| law on | Δx |", " | ".join(f"`{name}`" for name in (PROBLEMS[0], *names)), "|")
+    print("| ---" * (3 + len(names)), "|")
+    for (law, size), errors in found.items():
+        shown = [["–" if e is None else f"{100 * e:+.2f} ± {100 * b:.2g}" for e, b in pair] for pair in errors]
+        print(f"| {law} | {size:g} |", " | ".join(map(" / ".join, shown)), "|")
+    (bare_rough, *rough), (bare_smooth, *smooth) = (found[law, 0.02] for law in LAWS)
+    # without loads both are as good; with them the roughness of the law on velocities is of the order of the answer
+    assert max(abs(error) for error, _ in bare_rough + bare_smooth) < 4e-3
+    assert max(abs(error) for pair in smooth for error, _ in pair) < 0.08
+    assert max(abs(error) for pair in rough for error, _ in pair) > 0.2
 
 
 if __name__ == "__main__":
