@@ -62,11 +62,11 @@ def test_both_paths_say_the_same_of_a_beam_of_which_nothing_is_one(impact, end, 
     exudyn, hermite = (followed(impact, end, kind) for kind in (ExudynModel(mesh=mesh, **parts), HermiteFE(mesh=mesh)))
     within = {"gap": 2e-3, "slope": 3e-3, "angle": 3e-3, "velocity": 2e-2, "total_impulse": 1e-3, "work_of_loads": 1e-3,
               "largest_moment": 0.02, "strain_energy": 0.01, "bending_moment": 0.01, "angular_velocity": 0.02,
-              "peak_force": 4e-3, "peak_pressure": 2e-3, "peak_penetration": 2e-3, "loss_wall": 1e-2}  # fmt: skip
+              "kinetic_energy": 5e-3, "peak_force": 4e-3, "peak_pressure": 2e-3, "peak_penetration": 2e-3,
+              "loss_wall": 1e-2}  # fmt: skip
     for name in within.keys() & exudyn.dataset.keys():
         ours, theirs = exudyn.array(name)[-1], hermite.array(name)[-1]
         assert np.abs(ours - theirs).max() <= within[name] * np.abs(theirs).max(), name
-    assert exudyn.array("kinetic_energy")[-1] == pytest.approx(hermite.array("kinetic_energy")[-1], rel=5e-3)
     runs, initial = (exudyn, hermite), hermite.energy_budget()["initial_energy"]
     ours, theirs = (sum(run.array(name)[-1] for name in TAKEN if name in run.dataset) for run in runs)
     assert ours == pytest.approx(theirs, abs=4e-3 * initial)
