@@ -287,7 +287,8 @@ def unresolved_at_end(history: ImpactHistory, found: Moments) -> float:
     """The same at the last instant, l*, and what springs of k_c in place of a rigid wall leave: half of √(EI/k_c) over
     the front, the size of their error at κ/ν = 0.5, where runs of other k_c may agree by chance."""
     impact, front = history.impact, float(found.front[-1]) * history.impact.length_scale
-    spring = dict(history.settings.get("integrator") or {}).get("stiffness")
+    integrator = history.settings.get("integrator")
+    spring = integrator.get("stiffness") if isinstance(integrator, dict) else None
     soft = 0.5 * math.sqrt(impact.bending_stiffness / spring) / front if spring and front else 0.0
     return (unresolved(history, -1, front) + soft) / impact.length_scale
 
