@@ -6,8 +6,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from histories import history_of
+from histories import history_of, pushed_until
 
+from bent_beam import ImpactHistory
 from bent_beam.free_flight import LOWEST_PERIOD, Separation, cannot_return, has_left, may_return
 from bent_beam.hysteresis import branches_of
 from bent_beam.impact import Impact
@@ -43,6 +44,18 @@ def test_a_beam_that_has_left_does_not_return_and_one_that_swings_as_wide_as_it_
         assert not cannot_return(impact, x, flat + 1.01 * reach, -up, rigid + 0.1)
         assert not cannot_return(impact.replace(acceleration=1.0), x, flat + 9.0, up, rigid)
     assert not may_return(history) and may_return(history.until(0.7))
+
+
+def test_a_method_without_a_way_of_its_own_runs_twice_as_far_until_the_beam_is_given_up() -> None:
+    asked: list[float] = []
+
+    def pushed_for_ever(impact: Impact, *, end_time: float, **_: Any) -> ImpactHistory:
+        asked.append(end_time)
+        return pushed_until(99.0)
+
+    plain: Any = SimpleNamespace(simulate=pushed_for_ever)
+    simulate_to_separation(plain, Impact.whole_beam(2.0))
+    assert asked == pytest.approx([1.5, 3.0, 6.0, 8.0])
 
 
 @pytest.mark.parametrize("push", [0.0, 1.0])

@@ -156,7 +156,8 @@ def test_a_gate_that_touches_all_at_once_mistaken_units_and_a_hole_that_bends_on
     bar = Impact(2.0, 1.0, 2.0, 0.1, 1.0)
     percent = [bar.replace(damping=ratio / (np.pi * first_mode(bar))) for ratio in (0.48, 0.52)]
     assert not doubts(percent[0], None) and "ratio of 0.52: is it meant in percent?" in doubts(percent[1], None)[0]
-    thick, thin = (bar.replace(shear_stiffness=1e3, rotary_inertia=(2.0 / radii) ** 2) for radii in (14.0, 15.5))
+    heavy = bar.replace(mass_per_length=4.0, shear_stiffness=1e3)
+    thick, thin = (heavy.replace(rotary_inertia=4.0 * (2.0 / radii) ** 2) for radii in (14.0, 15.5))
     assert not doubts(thin, None) and "only 14 radii of gyration long" in doubts(thick, None)[0]
     soft = Impact(2.0, 1.0, 2.0, 0.1, 1.0, damping=0.1, wall_stiffness=8.0, wall_damping=5.7)
     assert "wall's damping ratio is 1.01, beyond" in doubts(soft, None)[0]

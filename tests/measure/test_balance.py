@@ -191,8 +191,23 @@ def test_a_beam_in_the_opposite_wall_is_in_a_wall() -> None:
     front = -0.1 * (x - 0.25) ** 2
     for behind, depth in ((0.0, 0.0), (0.05, 0.05)):
         gap = np.outer(time, front + 0.3 + behind * (x == 0.5))
+        gap[4] = -1.0  # nothing pushes: the first half of the run is its start
         run = history_of(time, x, impact=impact, symmetry="full", gap=gap)
         assert balance_of(run).penetration == pytest.approx(depth, abs=1e-12)
+
+
+def test_pushes_that_act_elsewhere_than_the_motion_says_are_seen_by_their_second_moment() -> None:
+    """Slowed down evenly, a beam of EI = μ = L/2 = 1 whose ends turn by θ has 2∫θ dt = (1/3 − a²)J, pushes ±a out."""
+    time, x = np.linspace(0.0, 1.0, 11), np.linspace(-1.0, 1.0, 21)
+    given, turned = 0.024 * time**2, np.outer(0.001 * time, x)  # a = 0.5
+    for place, off in ((0.5, 0.0), (0.6, 0.11 / 0.36)):
+        run = history_of(
+            time, x, impact=WHOLE.replace(damping=0.0), symmetry="full",
+            velocity=np.outer(1.0 - 0.5 * given, np.ones(x.size)),
+            slope=turned - WHOLE.curvature * x, total_impulse=given,
+            impulse=np.outer(given, 0.5 * np.isclose(np.abs(x), place)),
+        )  # fmt: skip
+        assert balance_of(run).second_moment == pytest.approx(off, abs=1e-9)
 
 
 MIDDLE = Impact.whole_beam(1.25, relative_damping=1e-3)  # whose impulses have no second moment to be off

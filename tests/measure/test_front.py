@@ -154,10 +154,16 @@ def test_a_force_of_the_wall_that_passes_its_earlier_largest_between_saved_insta
     assert [one.peak_force_time for one in found] == pytest.approx([1.0, 1.0, 4.75, 5.0])
 
 
-def test_a_force_that_is_largest_at_the_end_of_a_run_acts_where_the_wall_pushed_last() -> None:
+@pytest.mark.parametrize(("largest_at", "begin"), [(0.02, 0.0), (1.0, 0.9)])
+def test_a_force_that_is_largest_at_the_beginning_or_the_end_of_a_run_acts_where_the_wall_pushed_then(
+    largest_at, begin
+) -> None:
+    """At 1 m in one interval alone, otherwise in the middle."""
     time, x = np.linspace(0.0, 1.0, 11), np.array([0.0, 1.0])
-    given = np.column_stack([np.minimum(time, 0.9), np.maximum(time - 0.9, 0.0)])  # at 1 m in the last interval alone
-    peaks = dict.fromkeys(("peak_force", "peak_force_time", "peak_penetration", "peak_pressure"), time)
+    there = np.clip(time - begin, 0.0, 0.1)
+    given = np.column_stack([time - there, there])
+    peaks = dict.fromkeys(("peak_force", "peak_penetration", "peak_pressure"), time)
+    peaks["peak_force_time"] = np.full(time.size, largest_at)
     assert wall_peaks(history_of(time, x, impulse=given, total_impulse=given.sum(axis=1), **peaks)).place == 1.0
 
 

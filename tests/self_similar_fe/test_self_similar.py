@@ -71,6 +71,7 @@ def test_energy_of_the_fast_part_is_the_work_of_the_wall(half):
     impulse = SIDE * 4.0 * mass * speed * root * float(EXACT.r0)
     assert history.array("total_impulse")[-1] == pytest.approx(impulse, rel=1e-3)
     assert history.array("impulse_moment")[-1] == pytest.approx(impulse / 4.0 * float(EXACT.lambda0) * root, rel=2e-3)
+    assert history.array("velocity", -1)[[0, -1]] == pytest.approx([0.0, speed], rel=1e-2, abs=1e-6)
     budget = history.energy_budget()
     assert abs(budget["defect"]) < 3e-5 * budget["work_of_loads"]
     slope = history.array("slope", -1)
