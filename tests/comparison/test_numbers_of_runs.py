@@ -65,6 +65,13 @@ def test_companions_that_agree_better_than_whole_beams_can_leave_a_ten_thousandt
     assert again.bar == pytest.approx(5.0 * least)
 
 
+def test_a_run_is_kept_under_all_that_it_depends_on() -> None:
+    question = runs(TIME).question
+    for change in ({"impact": problem(0.5, 0.0)}, {"until": EARLY}, {"save": 300}):
+        other = dataclasses.replace(question, **change)
+        assert other.key(other.impact) != question.key(question.impact), change
+
+
 def test_curves_that_cross_at_the_time_asked_do_not_agree() -> None:
     """Nor do forces before a soft wall: means over halves of the window, 0.4 long, differ by ±0.04/0.2."""
     crossing = TIME | {"impulse_around": [0.92, 1.0, 1.08]}
