@@ -135,8 +135,6 @@ def run(arguments: Sequence[str] | None = None) -> int:
         return _refuse(str(error), 3)
     except BrokenPipeError:
         return _drop_output()
-    except (ValueError, OSError) as error:  # InputError among them
-        return _refuse(str(error), 2)
     except MemoryError:
         return _refuse("not enough memory; fewer nodes, steps or saved instants need less", 3)
     except SystemExit as ended:
@@ -145,11 +143,14 @@ def run(arguments: Sequence[str] | None = None) -> int:
         if isinstance(ended.__context__, BrokenPipeError):  # click takes `| head` for a failure
             return _drop_output()
         return _refuse(f"something that was called ended the program: {ended}", 3)
-    except (KeyboardInterrupt, typer.Abort, ImportError) as error:
-        # a library that is interrupted while it loads may say that it cannot be imported
-        if isinstance(error, ImportError) and not any(signal.getsignal(number) is interrupt for number in AGAIN):
+    except (KeyboardInterrupt, typer.Abort, ImportError, ValueError, OSError) as error:
+        # a library that is interrupted while it loads may say that it cannot be imported, and a path that needs it, too
+        stopped = any(signal.getsignal(number) is interrupt for number in AGAIN)
+        if stopped or isinstance(error, (KeyboardInterrupt, typer.Abort)):
+            return _refuse(f"interrupted; {how_to_go_on(words)}", INTERRUPTED)
+        if isinstance(error, ImportError):
             raise
-        return _refuse(f"interrupted; {how_to_go_on(words)}", INTERRUPTED)
+        return _refuse(str(error), 2)  # InputError among them
 
 
 NUMBER = re.compile(r"\s*[-+]?(?:(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?|nan|inf(?:inity)?)\s*", re.A | re.I)

@@ -137,9 +137,12 @@ def test_a_file_that_is_being_written_is_whole_or_not_there(how, tmp_path):
     assert list((tmp_path / "out").iterdir()) == []
 
 
-@pytest.mark.parametrize("then", ['raise ImportError("initialization failed")', "time.sleep(60)"])
+REFUSED = "raise ValueError(\"path: 'exudyn' is installed but does not load\")"
+
+
+@pytest.mark.parametrize("then", [REFUSED, 'raise ImportError("initialization failed")', "time.sleep(60)"])
 def test_an_interrupt_that_a_library_or_a_solver_swallows_is_told_all_the_same(then, tmp_path):
-    """Exudyn says that its module could not be imported, where it is interrupted while it loads."""
+    """Exudyn says that its module could not be imported, where it is interrupted while it loads, and its path so."""
     process = at_work(A_COMMAND.format(body=SWALLOWS.format(then), name="simulate"), tmp_path)
     assert "interrupted" in interrupted(process, os.kill, signal.SIGINT)
 
