@@ -44,7 +44,8 @@ class Method(Protocol):
 
     Optional next to what stands below: ``chosen_for(impact, end_time)``, ``refined(factor)``,
     ``for_whole_beam(impact)`` and ``simulate_to_separation(impact, …)`` (see the functions of these names);
-    ``cross_checks(impact)`` (cause → a method to compare with, for the error bars of a whole impact) and
+    ``cross_checks(impact)`` (cause → a method to compare with, for the error bars of a whole impact; under
+    ``contact_law_coarser`` one for the run on half of the elements) and
     ``varied(impact, random)`` (a copy with mesh, steps and contact law drawn at random, for a band);
     ``perturbation`` (by how much of y₀ the largest load of a first-order row may change it);
     ``PARTS`` (field → registry of kinds), for methods made from tables; ``DEFAULT_KINDS`` (field → kind), those that

@@ -154,7 +154,7 @@ def _shifted(made: Runs) -> float:
     """What companions change of the beginning of the last contact, T*. It counts beside its end, on which runs may
     agree by chance; at most by the time between two contacts that are one in another run."""
     own, shifts = made.run.reading["contacts"], 0.0
-    for companion in made.companions.values():
+    for companion in made.causes.values():
         other = companion.reading["contacts"]
         apart = [found[-1][0] - found[-2][1] for found in (own, other) if len(found) > 1]
         shifts += FACTOR * min([abs(own[-1][0] - other[-1][0]), *apart])
@@ -168,7 +168,7 @@ def _moment_about(made: Runs) -> float:
     reading, more = made.run.reading, 0.0
     time, own = np.array(reading["moment_around"])
     near = np.abs(time - reading["peak_moment_time"]) <= ABOUT * (1.0 + 1e-9)
-    for companion in made.companions.values():
+    for companion in made.causes.values():
         times, other = np.array(companion.reading["moment_around"])
         if times.size and (both := near & (times[0] <= time) & (time <= times[-1])).any():
             apart = float(np.sqrt(np.mean((np.interp(time[both], times, other) - own[both]) ** 2)))

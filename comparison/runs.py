@@ -18,7 +18,7 @@ from bent_beam.measure.balance import Balance
 from bent_beam.measure.numbers import FACTOR, Band, Number, number_of
 from bent_beam.method import Method, settings_of
 from comparison.doubts import loss_warnings, steep
-from comparison.questions import SHORT, Progress, Question
+from comparison.questions import OF_REBOUND, SHORT, Progress, Question
 from comparison.store import RunStore, code_of, source_of
 from comparison.workers import run_all
 
@@ -62,6 +62,11 @@ class Runs:
     @property
     def every(self) -> list[Run]:
         return [self.run, *self.companions.values()]
+
+    @property
+    def causes(self) -> dict[str, Run]:
+        """The companions that differ from the run by one cause each."""
+        return {cause: one for cause, one in self.companions.items() if cause != OF_REBOUND}
 
     @property
     def seconds(self) -> float:
@@ -165,7 +170,7 @@ def numbers_of(
     scales = _scales_of_rebound(runs.run.reading)
     for name in names:
         value = runs.run.reading[name]
-        others = {cause: run.reading[name] for cause, run in runs.companions.items()}
+        others = {cause: run.reading[name] for cause, run in runs.causes.items()}
         if scattered and len(others) > 1 and None not in (value, *others.values()):
             values = [float(value), *(float(other) for other in others.values())]
             parts = {"no_damping": 2.0 * statistics.stdev(values), **extra.get(name, {})}
@@ -173,7 +178,8 @@ def numbers_of(
         else:
             scale = max(scales.get(name, 0.0) / abs(value), 1.0) if value else 1.0
             share = of_rebound if name in scales else least
-            found[name] = number_of(value, others, extra.get(name), least=share * scale)
+            sizes = {**extra.get(name, {}), **(_law_on_coarser(runs, name) if name in scales else {})}
+            found[name] = number_of(value, others, sizes, least=share * scale)
     return found
 
 
@@ -187,6 +193,16 @@ def _scales_of_rebound(reading: Mapping[str, Any]) -> dict[str, float]:
         return scales
     energy = 2.0 * abs((1.0 + e) / e) * reading["translation"]
     return scales | {"restitution": abs(1.0 + e), "translation": energy, "vibration": energy}
+
+
+def _law_on_coarser(runs: Runs, name: str) -> dict[str, float]:
+    """What another contact law changes of a number on half of the elements, beyond what it changes on all."""
+    compared = [runs.companions.get(cause) for cause in ("contact_law", OF_REBOUND, "mesh_and_step")]
+    values = [run.reading[name] for run in (runs.run, *compared) if run is not None]
+    if len(values) < 4 or None in values:
+        return {}
+    own, law, law_coarser, coarser = values
+    return {OF_REBOUND: FACTOR * max(abs(law_coarser - coarser) - abs(law - own), 0.0)}
 
 
 def _least_of_rebound(impact: Impact) -> float:

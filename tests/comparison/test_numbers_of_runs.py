@@ -143,6 +143,25 @@ def test_a_rebound_from_a_rigid_wall_is_the_less_known_the_flatter_the_beam(kapp
     assert gone["impulse"].bar == pytest.approx(least * reading["impulse"])  # of a beam that turns alone
 
 
+def test_laws_that_agree_by_chance_are_compared_on_half_of_the_elements_too() -> None:
+    """The larger of two changes counts, of what a rebound gives back alone; a companion run that is lost counts not."""
+    own = whole_reading(pushed_until(0.5))
+    sheared = Question(problem(1.0, 1e-2).replace(shear_stiffness=1e4), COARSE)
+    causes = ("mesh_and_step", "contact_law", "contact_law_coarser")
+    assert tuple(sheared.companions()) == causes and len(dataclasses.replace(sheared, until=LATE).companions()) == 2
+    for law, both, laws in ((0.01, 0.04, 0.06), (0.07, 0.04, 0.07), (0.01, None, 0.01)):
+        shifts = {"mesh_and_step": -0.02, "contact_law": law} | ({} if both is None else {"contact_law_coarser": both})
+        every = {
+            cause: Run(own | {name: own[name] + shift for name in ("restitution", "peak_moment")}, [], 1.0, 1)
+            for cause, shift in shifts.items()
+        }
+        found = whole_numbers(Runs(sheared, Run(own, [], 1.0, 1), every))
+        assert found["restitution"].bar == pytest.approx(
+            FACTOR * (0.02 + laws) + found["restitution"].parts["saved_instants"]
+        )
+        assert found["peak_moment"].bar == pytest.approx(FACTOR * (0.02 + law))
+
+
 def test_largest_moments_of_curves_that_differ_around_them_do_not_agree() -> None:
     """Curves 0.02 apart with one maximum, of 1 at 0.3 T*; a companion that is 0.05 higher all over, which counts once;
     one whose largest is another, at 0.7 T*, where this one's is not kept."""

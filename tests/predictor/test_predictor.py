@@ -326,6 +326,23 @@ def test_the_last_part_of_a_contact_may_be_none_on_the_page_too() -> None:
     assert wide["lastContact"]["bar"] - narrow["lastContact"]["bar"] == pytest.approx(0.2)
 
 
+def test_laws_that_agree_by_chance_are_compared_on_half_of_the_elements_on_the_page_too() -> None:
+    """As in ``bounce``: the larger of two changes counts, of the restitution and not of the moment."""
+    read = {"lastContact": 0.6, "begin": 0.5, "apart": 0.1, "returns": [], "late": {}, "force": 0, "place": 0,
+            "frames": [{"t": 0.2, "force": [0, 0]}], "steps": 1000, "course": [2, 2], "impulse": 3,
+            "time": 0.3}  # fmt: skip
+    changes = [[0.0, -0.02, law, both] for law, both in ((0.01, 0.04), (0.07, 0.04))]
+    expression = """given.map((runs) => {
+        const p = {...Beam.problem(Beam.impact(Beam.START), 0.01), wall: null, kappa: 1, before: 0, shear: 4e6};
+        const names = Object.keys(Answer.runs(p)), {shear, ...stiff} = p;
+        const found = Answer.numbers(p, Object.fromEntries(runs.map((run, i) => [names[i], run])));
+        return [names, found.restitution.bar, found.moment.bar, Object.keys(Answer.runs(stiff)).length]; })"""
+    runs = [[read | {"restitution": 0.5 + d, "moment": 2.0 + d} for d in every] for every in changes]
+    for (law, laws), (names, e, moment, fewer) in zip(((0.01, 0.06), (0.07, 0.07)), evaluated(expression, runs)):
+        assert names == ["base", "half", "law", "lawOfHalf"] and fewer == 3
+        assert [e, moment] == pytest.approx([FACTOR * (0.02 + laws), FACTOR * (0.02 + law)])
+
+
 @pytest.mark.verify
 def test_twenty_random_beams_bounce_on_the_page_as_in_bounce() -> None:
     seed = int(np.random.default_rng().integers(10**6))

@@ -25,7 +25,8 @@ const Answer = (() => {
     const base = resolution(p), part = (s) => ({ ...base, elements: round(s * base.elements), steps: s * base.steps });
     const half = part(0.5), between = part(0.7); // springs err by where the rim stands between nodes: half may agree by chance
     if (p.wall && converges(p)) return { base, half, between, ...(p.eta ? {} : { finer: part(2) }) };
-    if (p.eta) return { base, half, law: { ...base, atPosition: !base.atPosition } };
+    const other = (run) => ({ ...run, atPosition: !base.atPosition });
+    if (p.eta) return { base, half, law: other(base), ...(p.shear ? { lawOfHalf: other(half) } : {}) };
     return Object.fromEntries(DRAWN.map((elements, i) => {
       const drawn = { elements, steps: round((0.5 + 0.2 * i) * elements ** 2), rebound: (i % 3) / 2 };
       return [i ? `drawn ${i}` : "base", drawn];
@@ -58,12 +59,12 @@ const Answer = (() => {
 
   /** Numbers of finished runs: value and bar (null while companions are missing), or mean ± std of an ensemble. */
   function numbers(p, found) {
-    const whole = Object.keys(runs(p)).every((name) => found[name]), { base, ...others } = found;
+    const whole = Object.keys(runs(p)).every((name) => found[name]), { base, lawOfHalf, ...others } = found;
     const stays = whole && Object.values(found).some((run) => run.restitution === null); // what grows late is not the largest
     let slow = 0;
     return Object.fromEntries(NAMES.map((name) => {
       const values = [base, ...Object.values(others)].map((run) => run[name]);
-      const there = values.every((value) => value !== null) && !(stays && base.late[name]);
+      const there = Object.values(found).every((run) => run[name] !== null) && !(stays && base.late[name]);
       if (!there || !whole) return [name, { value: there ? base[name] : null, bar: null }];
       if (!converges(p)) {
         const mean = values.reduce((a, b) => a + b) / values.length;
@@ -85,7 +86,10 @@ const Answer = (() => {
       const sum = bar + (known[name] || 0), share = light ? BARS.leastLight : BARS.least;
       const flat = p.wall || !p.kappa ? 0 : BARS.least / min(max(p.kappa, BARS.flattest), 1) ** 2; // comparison/runs.py
       const least = { restitution: max(share, flat) * abs(1 + base[name]), impulse: max(share, flat) * base[name] }[name];
-      const number = { value: base[name], bar: sum && max(sum, least ?? share * abs(base[name])) };
+      // On half of the elements laws may differ more; of a rebound the larger change counts.
+      const laws = least && lawOfHalf ? abs(lawOfHalf[name] - others.half[name]) - abs(others.law[name] - base[name]) : 0;
+      const wider = sum + FACTOR * max(laws, 0);
+      const number = { value: base[name], bar: wider && max(wider, least ?? share * abs(base[name])) };
       if (name === "restitution") slow = number.bar;
       return [name, number];
     }));
