@@ -8,10 +8,10 @@ import xarray
 from called import answered, command
 from histories import rod
 
-from bent_beam.cases import read_toml
+from bent_beam.cases import load_case, read_toml
 from bent_beam.errors import InputError
 from bent_beam.measure.numbers import Band, Number
-from comparison import sweep
+from comparison import bounce, predict, sweep
 from comparison.sweeping import NAMES, Row, SweepTable, cases_of, varied_from
 from hermite_fe import HermiteFE
 
@@ -39,7 +39,14 @@ def test_rows_are_the_numbers_of_bounce_and_are_kept(case, tmp_path, monkeypatch
     lines = (tmp_path / "out" / "sweep.csv").read_text().splitlines()
     assert len(lines) == 5 and lines[0].startswith("impact.velocity,beam.damping_ratio,kappa_over_nu")
     assert (tmp_path / "out" / "sweep.png").stat().st_size > 10_000
-    monkeypatch.setattr(HermiteFE, "simulate", lambda *a, **k: pytest.fail("it ran"))
+    fast = load_case(case, ["impact.velocity=2.0", "beam.damping_ratio=0.02"])
+    predicted = predict(fast)
+    for name in ("simulate", "simulate_to_separation"):
+        monkeypatch.setattr(HermiteFE, name, lambda *a, **k: pytest.fail("it ran"))
+    assert bounce(fast).runs.kept and predict(fast).to_dict() == predicted.to_dict()
+    for ask in (bounce, predict, lambda _, fresh: sweep(case, {"beam.damping_ratio": [0.02]}, fresh=fresh)):
+        with pytest.raises(pytest.fail.Exception, match="it ran"):
+            ask(fast, fresh=True)
     again = sweep(case, {"impact.velocity": [1.0, 2.0], "beam.damping_ratio": "0.01,0.02"})
     assert again.kept == 4 and json.loads(json.dumps(again.to_dict()["rows"])) == found["rows"]
     assert again.units == {"impact.velocity": "m/s", "beam.damping_ratio": ""}
