@@ -144,7 +144,7 @@ def test_a_rebound_from_a_rigid_wall_is_the_less_known_the_flatter_the_beam(kapp
 
 
 def test_laws_that_agree_by_chance_are_compared_on_half_of_the_elements_too() -> None:
-    """The larger of two changes counts, of what a rebound gives back alone; a companion run that is lost counts not."""
+    """The larger of two changes counts, of the numbers of a rebound alone; a run that is lost changes nothing."""
     own = whole_reading(pushed_until(0.5))
     sheared = Question(problem(1.0, 1e-2).replace(shear_stiffness=1e4), COARSE)
     causes = ("mesh_and_step", "contact_law", "contact_law_coarser")
