@@ -167,11 +167,10 @@ def test_what_plain_exudyn_reads_at_the_end_is_what_simulate_reads(impact, end, 
         assert read["force"].max() == pytest.approx(history.array("peak_force")[-1], rel=5e-3)
 
 
-@pytest.mark.parametrize(("end", "refine"), [(0.005, 0.25), pytest.param(0.1, 1.0, marks=pytest.mark.verify)])
-def test_a_very_small_axial_force_changes_nothing_and_an_axial_stiffness_may_be_given_beside_it(end, refine):
+def test_a_very_small_axial_force_changes_nothing_and_an_axial_stiffness_may_be_given_beside_it():
     """Its stiff bar has a round-off far above the residual of an unpulled beam."""
-    weak, method = Impact.whole_beam(2.0).replace(axial_force=1e-8), ExudynModel(refine=refine)
-    pulled, free = (method.simulate(weak.replace(axial_force=n), end_time=end, save=5) for n in (1e-8, 0.0))
+    weak, method = Impact.whole_beam(2.0).replace(axial_force=1e-8), ExudynModel(refine=0.25)
+    pulled, free = (method.simulate(weak.replace(axial_force=n), end_time=0.005, save=5) for n in (1e-8, 0.0))
     assert pulled.array("total_impulse")[-1] == pytest.approx(free.array("total_impulse")[-1], rel=1e-6)
     assert ExudynModel(element=ANCFCable(axial_stiffness=1.0)).refuses(weak) is None
 

@@ -143,15 +143,6 @@ def test_sources_edited_while_a_process_is_open_are_nobody_elses(monkeypatch):
     assert found.startswith(before.split()[0]) and str(os.getpid()) in found
 
 
-@pytest.mark.parametrize(("leave", "failed"), [(lambda: os._exit(0), 1), (lambda: os.chdir("/"), 0)])
-def test_a_method_neither_ends_the_program_nor_moves_its_output(leave, failed, monkeypatch):
-    simulate, here = HermiteFE.simulate, os.getcwd()
-    monkeypatch.setattr(HermiteFE, "simulate", lambda *a, **how: leave() or simulate(*a, **how))
-    code, out, _ = command("match", "--path", "hermite", "--kappa-over-nu", 2, "--refine", 0.25, "--json")
-    assert os.getcwd() == here and code == 3 * failed
-    assert ["exit" in one["reason"] for one in json.loads(out)["failures"]] == [True] * failed
-
-
 def test_a_program_that_does_not_load_costs_its_own_command(monkeypatch, capsys):
     broken = SimpleNamespace(name="theirs", load=lambda: importlib.import_module("no_such_module"))
     monkeypatch.setattr(app.metadata, "entry_points", lambda group: [broken])

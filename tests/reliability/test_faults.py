@@ -72,13 +72,16 @@ def test_a_killed_command_starts_again_and_ends_with_the_same_rows(name, tmp_pat
 
 
 def test_runs_that_fail_are_reported_with_how_to_ask_again_and_the_rest_goes_on(monkeypatch):
-    simulate = HermiteFE.simulate
-    reasons = {0.5: "", 0.8: "the method failed"}
+    simulate, here = HermiteFE.simulate, os.getcwd()
+    reasons = {0.3: "exit", 0.5: "", 0.8: "the method failed"}
 
     def broken(method, impact, **options):
         ratio = round(impact.kappa_over_nu, 3)
+        if ratio == 0.3:
+            os._exit(0)
         if ratio == 0.8:
             return None
+        os.chdir("/")
         history = simulate(method, impact, **options)
         if ratio == 0.5:
             history.dataset["impulse"].values[5:] = math.nan
@@ -86,6 +89,7 @@ def test_runs_that_fail_are_reported_with_how_to_ask_again_and_the_rest_goes_on(
 
     monkeypatch.setattr(HermiteFE, "simulate", broken)
     code, out, err = command(*match_on("hermite", *reasons, 2.0), "--refine", 0.5)
+    assert os.getcwd() == here
     found = json.loads(out)
     assert code == 3 and "Traceback" not in err
     assert [row["kappa_over_nu"] for row in found["rows"]] == [*reasons, 2.0]
