@@ -257,5 +257,7 @@ def test_a_number_is_written_in_the_unit_that_suits_its_size_or_with_a_power_of_
         written.append(f"{scale * float(value):g} {name}")
     assert written == ["9 mm", "0.011 m", "0.11 kN/m", "90 N", "500 N s", "1e-06 MPa", "1000 ms", "0.001 m/s"]
     assert [milliseconds(time) for time in (0.01234, 1.2, 12.0)] == ["12.3 ms", "1200 ms", "12000 ms"]
-    assert [readable(value) for value in (99_900.0, 1e5, 1.23e5)] == ["99900", "10⁵", "1.23·10⁵"]
-    assert [readable(value) for value in (1e-3, 9.99e-4, -1.5e-4)] == ["0.001", "9.99·10⁻⁴", "−1.5·10⁻⁴"]
+    large = {12345.6: "12350", 99_900.0: "99900", 1e5: "10⁵", 1.23e5: "1.23·10⁵"}
+    small = {1e-3: "0.001", 9.99e-4: "9.99·10⁻⁴", -1.5e-4: "−1.5·10⁻⁴", 1e-6: "10⁻⁶", -1e-6: "−10⁻⁶"}
+    shown = {0.0: "0", None: "–"} | large | small
+    assert {value: readable(value) for value in shown} == shown

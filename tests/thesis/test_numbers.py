@@ -1,4 +1,4 @@
-"""The page of printed numbers: each is in the class that its cells ask for, and is what is computed."""
+"""The page of printed numbers: each is what is computed, in its class, and the classes are counted alike."""
 
 from collections.abc import Callable, Iterator
 
@@ -8,8 +8,7 @@ from markdown_tables import lines_after, stated
 
 from bent_beam_programs.report.studies import stored_numbers
 from bent_beam_programs.thesis.gallery.numbers import PRINTED, chapter2, scales
-from bent_beam_programs.thesis.verdicts import CLASSES, Printed, counts, summary, within_rounding
-from comparison.readable import readable
+from bent_beam_programs.thesis.verdicts import Printed, counts, summary, within_rounding
 
 PAGE = "docs/thesis_numbers.md"
 
@@ -18,25 +17,9 @@ def on_page() -> list[list[str]]:
     return lines_after(PAGE, "| where")[2:]
 
 
-def test_every_printed_number_is_in_the_class_that_its_cells_ask_for() -> None:
-    assert len(on_page()) > 60
-    for _, what, thesis, ours, _, verdict, *why in on_page():
-        (printed, unit), (found, _) = stated(thesis), stated(ours)
-        near = abs(found - printed) <= 0.501 * unit
-        reason = " ".join(why)
-        assert verdict in CLASSES, what
-        if verdict == "inferred from axes":
-            assert "no number is printed" in reason, what
-        elif verdict == "other rule, stated by the thesis":
-            assert any(word in reason for word in ("straight lines", "assumes", "rounded", "as above")), what
-        else:
-            assert near == (verdict == "within rounding"), what
-            assert verdict != "same order" or 0.5 <= found / printed <= 2.0, what
-
-
 def test_the_count_is_the_same_in_report_and_docs_and_made_of_the_rows() -> None:
     page, shown = on_page(), stored_numbers()
-    assert shown is not None and shown["summary"] == summary(page)
+    assert len(page) > 60 and shown is not None and shown["summary"] == summary(page)
     assert summary(page) in (ROOT / PAGE).read_text()
     found = {name: numbers for name, *numbers in counts(page)}
     tested = sum(bool(row[6]) for row in page)
@@ -60,8 +43,3 @@ def test_the_page_of_printed_numbers_is_what_is_computed(part: Callable[[], Iter
 def test_a_value_is_within_rounding_where_as_many_digits_of_it_are_those_printed() -> None:
     near = {"1": (0.588, 0.96), "2e-4": (2.6e-4, 1.94e-4), "8e-3": (7.4e-3, 8.163e-3), "0.0312": (0.0314, 0.03125)}
     assert [[within_rounding(printed, v) for v in pair] for printed, pair in near.items()] == 4 * [[False, True]]
-
-
-def test_numbers_are_written_with_powers_of_ten() -> None:
-    shown = {2.5e-8: "2.5·10⁻⁸", 1e-6: "10⁻⁶", -1e-6: "−10⁻⁶", 0.0025: "0.0025", 0.0: "0", 12345.6: "12350", None: "–"}
-    assert {value: readable(value) for value in shown} == shown

@@ -263,17 +263,6 @@ def test_runs_of_unlike_lengths_are_drawn_to_the_longest_s_end() -> None:
     assert series == [{"theory", "1"}, {"theory", "0", "1"}]
 
 
-@SLOW
-def test_report_and_gallery_show_one_result() -> None:
-    """The stored study of 3.3.3, on the thesis's own case, is the run that the gallery draws."""
-    (study,) = (s for s in json.loads(stored_studies.FILE.read_text())["studies"] if s["name"] == "damping")
-    (row,) = (r for r in study["rows"] if r["label"] == "ρ∞ = 0.8")
-    drawn = runs.thesis("", 1.0 / 40.0, 0.01)
-    assert drawn.history.steps == row["steps"]
-    for name in ("contact_length_error", "reaction_error", "lift", "lost_impact"):
-        assert drawn.measures[name] == pytest.approx(row[name], rel=1e-6), name
-
-
 def test_a_small_picture_keeps_the_colours_of_thin_lines_and_a_grey_wall_grey(tmp_path: Path) -> None:
     """Lines one pixel wide on a smooth shade that has most of the pixels; a grey wall; and a patch of more random
     colours than are kept."""
