@@ -1,17 +1,19 @@
-"""A run in other units is the same in every number of its record; again, bit for bit.
+"""A run in other units is the same in every number of its record and of an instant; again, bit for bit.
 
 Units that are even powers of two change no digit; in others twins agree to what their rounding leaves. What is read
-from a record: ``measure/test_units.py``.
+from a record of the whole impact: ``measure/test_units.py``.
 """
 
 import random
 
 import pytest
 from here import FUZZ, SEED
-from twins import BEAM, EXACT, OF_HIT, QUICK, RUNS, SHEARED, SOFT, agree, differences, in_units, once, run
+from twins import BEAM, EXACT, OF_HIT, OF_INSTANT, QUICK, RUNS, SHEARED, SOFT, agree, differences, in_units, once, run
 
 from bent_beam import Impact, ImpactHistory
 from bent_beam.measure.balance import balance_of
+from bent_beam.measure.instant import instant
+from bent_beam.measure.moments import moments
 from bent_beam.meshes import UniformMesh
 from bent_beam.method import separation_times
 from comparison.bouncing import follow_hits
@@ -39,6 +41,8 @@ def test_every_number_of_a_run_changes_with_its_unit(kind, base):
     checks = [balance_of(one) for one in runs]
     agree(*checks)
     assert (checks[0].momentum or 0.0) < 0.02 and checks[0].energy < 3e-3  # coarse as they are
+    agree(*(moments(one) for one in runs))
+    agree(*(instant(one, 0.5 * one.time[-1]) for one in runs), OF_INSTANT, base)
 
 
 # Bending takes second differences of deflections, which multiplies round-off by the square of the number of elements.
