@@ -21,7 +21,7 @@ from bent_beam_programs.thesis import stored_studies
 from bent_beam_programs.thesis.gallery import runs
 from bent_beam_programs.thesis.gallery.runs import every_step
 from bent_beam_programs.thesis.sheet import Sheet
-from bent_beam_programs.thesis.studies import STUDIES, first_order_case, of_exudyn, run_study
+from bent_beam_programs.thesis.studies import STUDIES, first_order_case, run_study
 from bent_beam_programs.thesis.studies.exact import Exact
 from bent_beam_programs.thesis.studies.of_methods import runs_of_methods
 from bent_beam_programs.thesis.studies.outcome import CUT_OFF, Outcome, Steps
@@ -33,16 +33,10 @@ from hermite_fe.integrators import SignoriniPosition
 from self_similar_fe import SelfSimilarFE
 from theory import predict
 
-SLOW = pytest.mark.verify
-
 
 def case(curvature: float, duration: float, **changes: float) -> Case:
     found = runs.case(curvature, duration)
     return replace(found, impact=found.impact.replace(**changes))
-
-
-def by_label(result: Any) -> dict[str, dict[str, Any]]:
-    return {row["label"]: row for row in result.rows}
 
 
 LOADS = ({}, {"axial_force": 40.0}, {"axial_force": -40.0}, {"acceleration": 70.0}, {"acceleration": -70.0})
@@ -103,55 +97,43 @@ def test_a_solver_that_cannot_finish_is_a_row_of_its_own_without_numbers() -> No
         _ = found.lift
 
 
-@SLOW
-def test_the_time_step_does_not_change_the_lift(tmp_path: Path) -> None:
-    seen: list[tuple[int, int]] = []
-    given = case(1.0, 0.01)
-    result = run_study("time-step", given, out=tmp_path, progress=lambda done, total: seen.append((done, total)))
-    rows = by_label(result)
+def stored_rows(name: str) -> dict[str, dict[str, Any]]:
+    """Rows of a study on the thesis's own case, by label."""
+    (study,) = (s for s in stored.read(stored_studies.FILE)["studies"] if s["name"] == name)
+    return {row["label"]: row for row in study["rows"]}
+
+
+def test_each_parameter_has_the_effect_that_the_thesis_and_theory_give_it() -> None:
+    """3.3.1–3.3.5. Of no effect on the lift: the time step, ρ∞. A tenth of the lift with nodes needs lumped masses;
+    coarse elements far away reflect waves; true geometry drifts with the slopes.
+    """
+    rows = stored_rows("time-step")
     fine = [rows[f"h = {h} s"] for h in ("5·10⁻⁸", "2.5·10⁻⁸", "10⁻⁸")]
     lifts = [row["lift"] for row in fine]
     assert max(lifts) < 1.01 * min(lifts) and all(45.0 < row["reaction_error"] < 55.0 for row in fine)  # lumped middles
     for name, error, lift in (("Hermite", 0.2, 5e-3), ("Self-similar", 0.01, 1e-4)):
         ours = rows[name]
         assert abs(ours["reaction_error"]) < error and abs(ours["contact_length_error"]) < error and ours["lift"] < lift
-    assert seen[-1] == (7, 7)
-    files = [tmp_path / f"time-step{end}" for end in (".png", ".csv", "-table.csv", ".json")]
-    assert result.files == [str(f) for f in files] and all(f.stat().st_size > 100 for f in files)
-    assert json.loads(files[-1].read_text()) == result.to_dict()
-
-
-@SLOW
-def test_each_parameter_has_the_effect_that_the_thesis_and_theory_give_it() -> None:
-    """3.3.2–3.3.5; a tenth of the lift with nodes needs lumped masses; coarse elements far away reflect waves."""
-    given = case(1.0, 0.01)
-    errors = [abs(r["reaction_error"]) for r in run_study("mesh", given).rows if "e = 1.25" in r["label"]]
+    errors = [abs(row["reaction_error"]) for label, row in stored_rows("mesh").items() if "e = 1.25" in label]
     assert errors == sorted(errors, reverse=True) and errors[0] > 30.0 and errors[-1] < 0.2 * errors[0]
-    rows = by_label(run_study("restitution", given))
+    rows = stored_rows("restitution")
     assert rows["restitution 0"]["lost_impact"] > 10.0 and abs(rows["restitution 1"]["lost_impact"]) < 1e-9
     assert rows["restitution 1"]["lift"] > rows["restitution 0"]["lift"]
-    rows = by_label(run_study("damping", given))
-    lifts = [rows[f"ρ∞ = {r}"]["lift"] for r in ("1", "0.8", "0.5", "0.2", "0")]
+    lifts = [stored_rows("damping")[f"ρ∞ = {r}"]["lift"] for r in ("1", "0.8", "0.5", "0.2", "0")]
     assert max(lifts) < 1.25 * min(lifts)
-    rows = by_label(run_study("contact-point", given))
+    rows = stored_rows("contact-point")
     assert rows["nodes, lumped"]["value"] == 0.0 > rows["nodes, consistent"]["value"] > rows["middles, lumped"]["value"]
     assert rows["nodes, lumped"]["lift"] < 0.4 * rows["middles, lumped"]["lift"]
     assert 0.5 < rows["nodes, consistent"]["lift"] / rows["middles, consistent"]["lift"] < 2.0
-    rows = by_label(run_study("far-field", case(10.0, 0.01)))
+    rows = stored_rows("far-field")
     assert rows["e = 1.25"]["noise"] > 1.5 * rows["e = 1.02"]["noise"]
     assert rows["e = 1.25, grid viscosity 0.3"]["noise"] < 0.05 * rows["e = 1.25"]["noise"]
-
-
-@SLOW
-def test_true_geometry_drifts_with_the_slopes(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(of_exudyn, "DURATIONS", (3e-2,))
-    rows = by_label(run_study("amplitude", case(10.0, 0.1)))
+    rows = stored_rows("amplitude")
     assert 0.4 < rows["true, τ = 0.03"]["reaction_error"] - rows["linear, τ = 0.03"]["reaction_error"] < 0.9
 
 
-@SLOW
 def test_the_condition_of_the_matrix_is_that_of_its_units_and_the_runs_close_their_budget() -> None:
-    rows = run_study("conditioning", case(1.0, 0.01)).rows
+    rows = stored_rows("conditioning").values()
     assert all(row["scaled"] < 1e-3 * row["raw"] and row["defect"] < 1e-9 for row in rows)
     assert [row["elements"] for row in rows] == sorted(row["elements"] for row in rows)
 
@@ -222,8 +204,10 @@ def test_the_refusal_of_a_method_is_a_row_with_its_reason() -> None:
     assert row.refused and row.failure == "axial_force is not modelled"
     (row,) = asked_of("far-field", case(10.0, 0.01), Plain(), 2.0).values()
     assert row.refused and "does not know how to be refined" in row.failure
-    law = HermiteFE(mesh=UniformMesh(0.05), integrator=SignoriniPosition())
-    rows = run_study("restitution", case(10.0, 0.01, length=2.0), methods=[law]).rows
+    law, told = HermiteFE(mesh=UniformMesh(0.05), integrator=SignoriniPosition()), list[tuple[int, int]]()
+    given = case(10.0, 0.01, length=2.0)
+    rows = run_study("restitution", given, methods=[law], progress=lambda *done: told.append(done)).rows
+    assert told[-1][0] == told[-1][1]
     assert [row["refused"] for row in rows] == [False, True, True]
     assert all("restitution" in row["failure"] for row in rows[1:])
 
@@ -239,12 +223,15 @@ def test_the_command_takes_methods_and_every_row_plot_and_table_carries_the_labe
         '[[method]]\nlabel = "Mine"\npath = "hermite"\nmesh = {kind = "uniform", element_length = 0.05}\n'
         'integrator = {kind = "moreau_jean"}\n[[method]]\nlabel = "Endless"\npath = "self_similar"\n'
     )
-    rows = answered("study", "restitution", *SMALL, "--out", out, "--methods", file, "--refine", "0.5")["rows"]
+    found = answered("study", "restitution", *SMALL, "--out", out, "--methods", file, "--refine", "0.5")
+    rows, files = found["rows"], [out / f"restitution{end}" for end in (".png", ".csv", "-table.csv", ".json")]
+    assert found["files"] == [str(f) for f in files] and all(f.stat().st_size > 100 for f in files)
+    assert json.loads(files[-1].read_text()) == found
     assert [(r["label"], r["refine"]) for r in rows] == [("Mine", 0.5)] * 3 + [("Endless", 0.5)]
     assert [r["setting"] for r in rows[:3]] == ["restitution 0", "restitution 0.5", "restitution 1"]
     assert all(r["reaction_error"] is not None and r["failure"] is None for r in rows[:3])
     assert rows[3]["failure"] == "not varied: self_similar has no contact" and rows[3]["refused"]
-    drawn, table = ((out / f"restitution{end}.csv").read_text() for end in ("", "-table"))
+    drawn, table = (file.read_text() for file in files[1:3])
     assert "Mine, refined 0.5 times" in drawn and "Endless" in table
 
 
