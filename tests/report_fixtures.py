@@ -8,36 +8,31 @@ from typing import Any
 
 from bent_beam.measure.numbers import Number
 from bent_beam.meshes import ScaleFreeMesh
+from bent_beam.method import method_from_tables
 from bent_beam.stored import write
 from bent_beam_programs.report.impacts import SHOWN, ShownImpact, show
 from bent_beam_programs.report.whole import PIPE, pipe_prediction
-from comparison.rows import MatchRow
+from comparison.rows import MatchQuestion, MatchRow, lost_row
 from comparison.store import RunStore
 from hermite_fe import HermiteFE
 from self_similar_fe import ExpandingMesh, SelfSimilarFE
-from theory import contact_parameters
+
+Load = tuple[float, float, float]  # α, ψ, χ
 
 
-def row(path: str, kappa: float, first: tuple[float, float, float] | None = None, off: float = 1e-4) -> MatchRow:
+def row(path: str, kappa: float, first: Load | None = None, off: float = 1e-4) -> MatchRow:
     """A row that is ``off`` (relative) from theory, with an error bar twice that."""
-    alpha, psi, chi = first or (0.0, 0.0, 0.0)
-    exact = contact_parameters(kappa, alpha, psi, chi)
-    numbers = {
-        name: Number(value + sign * off * max(abs(value), least), 2 * off * max(abs(value), least), value)
-        for name, sign, least in (("lambda0", 1, 0.0), ("r0", -1, 0.0), ("lambda1", 1, 1.0), ("r1", 1, 1.0))
-        if (value := float(getattr(exact, name))) is not None and (first or name.endswith("0"))
-    }
-    told = {"regime": str(exact.regime), "lift": 1e-9, "pull": 0.0, "epsilons": [0.1, 0.2] if first else []}
-    return _row(path, kappa, (alpha, psi, chi), seconds=0.5 if path == "hermite" else 5.0, **told, **numbers)
+    blank, numbers = lost(path, kappa, "", first), {}
+    for name, sign, least in (("lambda0", 1, 0.0), ("r0", -1, 0.0), ("lambda1", 1, 1.0), ("r1", 1, 1.0)):
+        if (value := getattr(blank, name).theory) is not None:
+            wrong = off * max(abs(value), least)
+            numbers[name] = Number(value + sign * wrong, 2.0 * wrong, value)
+    told = {"seconds": 0.5 if path == "hermite" else 5.0, "lift": 1e-9, "pull": 0.0}
+    return replace(blank, reason=None, epsilons=[0.1, 0.2] if first else [], **told, **numbers)
 
 
-def lost(path: str, kappa: float, reason: str) -> MatchRow:
-    return _row(path, kappa, (1.0, 0.0, 0.0), reason=reason)
-
-
-def _row(path: str, kappa: float, loads: tuple[float, float, float], **told: Any) -> MatchRow:
-    given = dict(zip(("alpha", "psi", "chi"), loads), axial=0.0, refine=1.0, settings={})
-    return MatchRow(label=path.capitalize(), path=path, kappa_over_nu=kappa, **given, **told)
+def lost(path: str, kappa: float, reason: str, first: Load | None = (1.0, 0.0, 0.0)) -> MatchRow:
+    return lost_row(MatchQuestion(method_from_tables(path, {}), kappa, first), reason)
 
 
 def rows() -> list[MatchRow]:
@@ -45,7 +40,7 @@ def rows() -> list[MatchRow]:
     leading = [row(path, k) for k in (1 / 1600, 1 / 20, 0.25, 0.5) for path in ("hermite", "exudyn")]
     coarse = [replace(row(path, 0.5, off=4e-4), refine=0.5, seconds=0.1) for path in ("hermite", "exudyn")]
     first = [("hermite", 0.5, 2e-3), ("exudyn", 0.5, 2.5e-2), ("hermite", 0.7, 1.5e-2), ("hermite", 0.8, 0.2)]
-    return [*leading, *coarse, *(row(path, kappa, (4, 0, 0), off) for path, kappa, off in first)]
+    return [*leading, *coarse, *(row(path, kappa, (4.0, 0.0, 0.0), off) for path, kappa, off in first)]
 
 
 FOLDER = Path(tempfile.mkdtemp())
