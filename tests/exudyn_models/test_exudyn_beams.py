@@ -1,5 +1,6 @@
 """Beams of which nothing is one: both paths say the same, and a half of a beam is half of it, by every part."""
 
+import math
 import re
 
 import numpy as np
@@ -10,7 +11,7 @@ from twins import in_units
 from bent_beam import Impact
 from bent_beam.files import UNITS
 from bent_beam.meshes import NodesMesh, UniformMesh
-from exudyn_models import ExudynModel, build, simulate
+from exudyn_models import ExudynModel, build, chosen_mesh, simulate
 from exudyn_models.contacts import Penalty, Rigid, SegmentFriction
 from exudyn_models.elements import ANCFCable, GeometricallyExact
 from exudyn_models.geometry import LinearLimit
@@ -186,3 +187,10 @@ def test_what_a_run_under_way_is_asked_for_is_what_its_record_says(full):
         assert_allclose((x, gap, velocity), record, rtol=1e-12, atol=1e-12)
         assert whole == pytest.approx(energy[k], rel=1e-12)
     assert len(told) == 3
+
+
+@pytest.mark.parametrize(("kappa_over_nu", "elements"), [(0.1, 300), (0.008, 375), (0.004, 750), (0.002, 800)])
+def test_elements_of_a_thin_front_are_a_third_of_the_bending_length_ahead_of_it_within_limits(kappa_over_nu, elements):
+    """That length is √(2κ/ν), the front's bound √(2ν/κ), both times √(t/t*)."""
+    first = chosen_mesh(Impact.dimensionless(kappa_over_nu), 0.4).places[1]
+    assert math.sqrt(2.0 / kappa_over_nu * 0.4) / first == pytest.approx(elements, rel=2e-3)  # of whole elements

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from numpy.testing import assert_allclose
 
 import exudyn_models
 from bent_beam import Impact
@@ -20,10 +21,11 @@ from exudyn_models import ExudynModel, stepping
 from exudyn_models.contacts import Penalty, Rigid, SegmentFriction
 from exudyn_models.contacts.base import HeldStrip
 from exudyn_models.contacts.penalty import PenaltyRun
-from exudyn_models.elements import ANCFCable, Beam
+from exudyn_models.elements import ANCFCable, Beam, GeometricallyExact
 from exudyn_models.geometry import LinearLimit, TrueGeometry
-from exudyn_models.integrators import RK44, GeneralizedAlpha
+from exudyn_models.integrators import RK44, GeneralizedAlpha, Newmark
 from exudyn_models.method import held_for
+from exudyn_models.recording import nodal_largest
 from exudyn_models.segments import growing_segments
 from theory import contact_parameters
 
@@ -127,6 +129,27 @@ def test_nothing_is_held_once_waves_may_be_back():
     assert np.ptp(history.array("held_impulse")[history.time >= 1.05 * until]) == 0.0
 
 
+@pytest.mark.parametrize(
+    "parts",
+    [
+        pytest.param({"element": GeometricallyExact()}, marks=verify),
+        pytest.param({"contact": Rigid(), "integrator": Newmark(relative_step=5e-3)}, marks=verify),
+        {"contact": Penalty(relative_stiffness=3.0, relative_damping=1.0, hold=4)},
+        pytest.param({"contact": SegmentFriction(friction=0.3)}, marks=verify),
+        pytest.param({"integrator": Newmark(relative_step=5e-3)}, marks=verify),
+        pytest.param({"integrator": GeneralizedAlpha(spectral_radius=0.0)}, marks=verify),
+        pytest.param({"geometry": LinearLimit(1e-2)}, marks=verify),
+    ],
+    ids=str,
+)
+def test_swapped_part_keeps_the_answer(parts):
+    history = exudyn_models.simulate(HALF, mesh=coarse(), save=100, **parts)
+    assert off(history) < 5e-3
+    x, model = history.array("x"), history.settings
+    slope = 0.5 * x[-1] * model["amplitude"] / model["amplitude_of_the_real_beam"]  # the bow is an arc, not a parabola
+    assert_allclose(history.array("gap")[0], 0.25 * x**2, rtol=slope**2, atol=1e-12)
+
+
 @pytest.mark.parametrize("friction", [0.0, 0.3, 1e3])  # smooth, sliding, sticking
 def test_segment_contact_loses_what_its_forces_do(friction):
     """A step's forces are those of the states that it was solved with: gaps at its end would hide 2 % of the losses.
@@ -199,6 +222,10 @@ def test_a_force_that_is_read_wrong_shows_against_the_momentum(monkeypatch):
             patch.setattr(owner, name, wrong)
             amiss = judged()
         assert abs(amiss.law) > 1e-3 and any("do not agree" in warning for warning in amiss.warnings), name
+
+
+def test_the_largest_moment_of_a_node_is_the_larger_of_its_two_sides():
+    assert nodal_largest(np.array([[[1.0, -5.0], [2.0, 3.0]]])).tolist() == [[1.0, 5.0, 3.0]]
 
 
 @pytest.mark.parametrize(

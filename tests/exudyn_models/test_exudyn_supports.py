@@ -59,15 +59,23 @@ def test_a_load_bends_a_hinged_beam_to_its_rest_however_slowly_it_came(velocity:
     assert history.array("gap", -1).max() == pytest.approx(5.0 * 16.0 / 384.0, rel=2e-5)
 
 
-def test_both_paths_agree_on_every_number_of_a_damped_wall() -> None:
-    """On the mesh that each chooses. A penalty of the elements' own would grow with 1/Δx."""
-    within = {"peak_force": 5e-4, "peak_force_time": 8e-3, "peak_penetration": 5e-4, "peak_pressure": 1e-3,
-              "total_impulse": 2e-4, "loss_wall": 5e-3, "contact_energy": 5e-3}  # fmt: skip
-    impact = Impact.dimensionless(0.333).replace(wall_stiffness=1e4, wall_damping=66.5)
-    runs = [kind(refine=0.7).simulate(impact, end_time=0.04, save=40) for kind in (ExudynModel, HermiteFE)]
-    for name in within:
+WITHIN = {"peak_force": 5e-4, "peak_force_time": 8e-3, "peak_penetration": 5e-4, "peak_pressure": 1e-3,
+          "total_impulse": 2e-4, "loss_wall": 5e-3, "contact_energy": 5e-3}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("seed", "refine"), [(44, 0.7), *(pytest.param(seed, 1.0, marks=pytest.mark.verify) for seed in (45, 46))]
+)
+def test_both_paths_agree_on_every_number_of_a_damped_wall(seed: int, refine: float) -> None:
+    """The pressure is that of spring and dashpot. A penalty of the elements' own would grow with 1/Δx, and dashpots of
+    whole elements would push 2.6 % more."""
+    draw = np.random.default_rng(seed)
+    drawn = kappa_over_nu, ratio = float(draw.uniform(0.1, 2.0)), float(draw.uniform(0.1, 1.0))
+    impact = Impact.dimensionless(kappa_over_nu).replace(wall_stiffness=1e4, wall_damping=200.0 * ratio)
+    runs = [kind(refine=refine).simulate(impact, end_time=0.04, save=40) for kind in (ExudynModel, HermiteFE)]
+    for name, within in WITHIN.items():
         ours, theirs = (run.array(name)[-1] for run in runs)
-        assert ours == pytest.approx(theirs, rel=within[name]), name
+        assert ours == pytest.approx(theirs, rel=within), (name, drawn)
 
 
 SHEARS = {"shear_stiffness": 400.0, "rotary_inertia": 5e-4}  # √(κ_sGA μ) = 20

@@ -22,7 +22,7 @@ from comparison.bouncing import bounce
 from exudyn_models import ExudynModel
 from exudyn_models.assembly import assemble, lay_out
 from exudyn_models.contacts import Penalty, SegmentFriction, penalty
-from exudyn_models.elements import ANCFCable
+from exudyn_models.elements import ANCFCable, GeometricallyExact
 from exudyn_models.integrators import GeneralizedAlpha, Trapezoidal
 from exudyn_models.resolution import chosen_steps, resolving_step
 from exudyn_models.solvers import USUAL, NewtonSolver
@@ -96,6 +96,16 @@ def test_restitution_is_that_of_the_hermite_path_and_of_the_page(kappa_over_nu, 
     # hits that follow one another amplify round-off, which differs from processor to processor
     assert restitution(history) == pytest.approx(ours, abs=1e-4)
     closes(history)
+
+
+@pytest.mark.verify
+def test_another_element_bounces_as_the_cable_does():
+    """With the cable's tolerance Newton's method stalled in its first step."""
+    impact, kinds = Impact.whole_beam(0.7, relative_damping=3e-3), (None, GeometricallyExact())
+    cable, other = (ExudynModel(element=kind).simulate_to_separation(impact) for kind in kinds)
+    assert other.energy_budget()["loss_viscous"] == 0.0
+    assert restitution(other) == pytest.approx(restitution(cable), abs=2e-3)
+    closes(other, 1e-5)
 
 
 def test_a_stopped_beam_gathers_its_exact_impulse_until_the_first_release():
