@@ -229,32 +229,40 @@ def _zone_end(history: ImpactHistory, first: int, k: int) -> float:
 
 
 def half_contact_length(history: ImpactHistory, k: int) -> float | None:
-    """Distance of the outermost push from the first touch, m: the median over the saved intervals around instant ``k``
-    in which the wall pushes; ``None`` without one. Nothing is assumed about what presses inside, and a middle that
-    has lifted off does not count less."""
-    rims = _rims(history, k)
-    return float(np.median(rims)) if rims.size else None
+    """Distance of the outermost push from the first touch, m: the median, by time, over the saved intervals around
+    instant ``k`` in which the wall pushes; ``None`` without one. Nothing is assumed about what presses inside, and a
+    middle that has lifted off does not count less."""
+    rims, durations = _rims(history, k)
+    if not rims.size:
+        return None
+    order = np.argsort(rims)
+    share = np.cumsum(durations[order]) - 0.5 * durations[order]
+    return float(np.interp(0.5 * durations.sum(), share, rims[order]))
 
 
 def jump_of_rim(history: ImpactHistory, k: int) -> float:
     """How far the rim jumps about instant ``k``, m, where the median of :func:`half_contact_length` may as well be the
     next interval's; 0 of one that moves on (:data:`JUMP`, :data:`MOVES`)."""
-    rims = np.sort(_rims(history, k))
+    rims = np.sort(_rims(history, k)[0])
     middle = rims[max((rims.size - 1) // 2 - 1, 0) : rims.size // 2 + 2]
     widest = float(np.diff(middle).max(initial=0.0))
     moves = 1.0 - math.sqrt(history.time[k - 1] / history.time[k]) if k else 1.0  # of a rim ~ √t
     return widest if rims.size and widest > max(JUMP, MOVES * moves) * middle[-1] else 0.0
 
 
-def _rims(history: ImpactHistory, k: int) -> Array:
-    """Distance of the outermost push from the first touch, m, in each saved interval around ``k`` that has one."""
-    time = history.time
-    last = max(int(np.searchsorted(time, (1.0 + AROUND) * time[k], side="right")), k + 1)
-    pushed = np.diff(history.array("impulse", slice(_last_tenth(time)[k], last)), axis=0)
+def _rims(history: ImpactHistory, k: int) -> tuple[Array, Array]:
+    """Distance of the outermost push from the first touch, m, in each saved interval around ``k`` that has one, and
+    how much of the interval, s, lies within :data:`AROUND` of the time."""
+    begin, end = (1.0 - AROUND) * history.time[k], (1.0 + AROUND) * history.time[k]
+    first = max(int(np.searchsorted(history.time, begin, side="right")) - 1, 0)
+    last = max(int(np.searchsorted(history.time, end)), k) + 1
+    within = np.clip(history.time[first:last], begin, end)
+    pushed = np.diff(history.array("impulse", slice(first, last)), axis=0)
     pushes = pushed > PUSH * float(np.abs(history.array("impulse", -1)).max(initial=0.0))
     distances = np.abs(history.contact_positions(k) - history.impact.first_touch)
     outermost = np.where(pushes, distances, -1.0).max(axis=1)
-    return np.asarray(outermost[outermost >= 0.0])
+    has_one = outermost >= 0.0
+    return outermost[has_one], np.diff(within)[has_one]
 
 
 def mean_reaction(history: ImpactHistory, at: float) -> float | None:

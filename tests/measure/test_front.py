@@ -42,6 +42,18 @@ def test_a_middle_that_lifts_off_does_not_shorten_the_contact_and_a_late_push_al
     assert mean_reaction(history, history.time[75]) == pytest.approx(2.0, rel=1e-9)
 
 
+@pytest.mark.parametrize("late", [0.0, 1e-3, -1e-3, 4e-3])
+def test_a_rim_that_moves_on_is_read_at_the_time_whether_or_not_one_interval_more_lies_around_it(late) -> None:
+    """It is at 0.2 + 0.6 t, 0.006 further an interval; the tenth before 0.5 begins ``late`` in one of them."""
+    time, x = np.arange(0.0, 1.2, 0.01), np.linspace(0.0, 1.0, 2001)
+    time[time < 0.5] -= late
+    time[0] = 0.0
+    rim = 0.2 + 0.3 * (time[1:] + time[:-1])
+    pushed = (np.abs(rim[:, None] - x) < 2.5e-4) * 1.0
+    history = history_of(time, x, impulse=np.vstack([0.0 * x, pushed.cumsum(axis=0)]))
+    assert half_contact_length(history, 50) == pytest.approx(0.5, abs=1e-3)
+
+
 def test_a_front_of_points_that_move_may_be_a_small_part_of_the_length_scale() -> None:
     time = np.linspace(0.0, 1.0, 2001)
     places, both = 0.02 * np.sqrt(time)[:, None] * [-1.0, 1.0], {"symmetry": "full", "total_impulse": 2.0 * time}
