@@ -56,12 +56,18 @@ class _Cable(Beam):
             useReducedOrderIntegration=1,
         )
 
-    def _fields(self, q: Array, offset: int, shapes: tuple[Array, ...], *derivatives: int) -> list[Array]:
-        """Derivatives by s of a component (0: x, 1: y) at the points of ``shapes``, each (…, elements, points)."""
-        length = self.lengths[:, None]
-        at_nodes = q[..., self.horizontal[:-1, None] + [0, 2, 4, 6] + offset]  # x₁, x₁′, x₂, x₂′
-        at_nodes[..., 1::2] *= length
-        return [at_nodes @ shapes[derivative] / length**derivative for derivative in derivatives]
+    def _fields(self, q: Array, shapes: tuple[Array, ...], *derivatives: int) -> list[Array]:
+        """Derivatives by s of x, then of y, at the points of ``shapes``, each (…, elements, points)."""
+        length, found = self.lengths[:, None], []
+        for offset in (0, 1):
+            at_nodes = q[..., self.horizontal[:-1, None] + [0, 2, 4, 6] + offset]  # x₁, x₁′, x₂, x₂′
+            at_nodes[..., 1::2] *= length
+            found += [at_nodes @ shapes[derivative] / length**derivative for derivative in derivatives]
+        return found
+
+    def _bent(self, q: Array, shapes: tuple[Array, ...]) -> Array:
+        """κ − κ₀ at the points of ``shapes``, (…, elements, points)."""
+        return np.asarray(self._curvature(*self._fields(q, shapes, 1, 2)) - self.shape.curvature)
 
     def _integral(self, values: Array) -> Array:
         return np.asarray((values * (self.lengths[:, None] * WEIGHTS / 2)).sum(axis=(-2, -1)))
@@ -70,17 +76,15 @@ class _Cable(Beam):
         return np.asarray(q[..., self.rotation] / (1.0 + q[..., self.horizontal + 2]))
 
     def axial_strain(self, q: Array) -> Array:
-        (x1,), (y1,) = self._fields(q, 0, AT_STRETCH, 1), self._fields(q, 1, AT_STRETCH, 1)
+        x1, y1 = self._fields(q, AT_STRETCH, 1)
         return np.asarray(np.hypot(1.0 + x1, y1) - 1.0)
 
     def bending_energy(self, q: Array) -> Array:
-        (x1, x2), (y1, y2) = self._fields(q, 0, AT_BENDING, 1, 2), self._fields(q, 1, AT_BENDING, 1, 2)
-        squares = (self._curvature(x1, x2, y1, y2) - self.shape.curvature) ** 2
-        return np.asarray(squares.mean(axis=-1) @ self.lengths) / 2
+        return np.asarray((self._bent(q, AT_BENDING) ** 2).mean(axis=-1) @ self.lengths) / 2
 
     def damping_work(self, q: Array, v: Array) -> tuple[Array, Array]:
-        (x1, x2), (y1, y2) = self._fields(q, 0, AT_BENDING, 1, 2), self._fields(q, 1, AT_BENDING, 1, 2)
-        (u1, u2), (w1, w2) = self._fields(v, 0, AT_BENDING, 1, 2), self._fields(v, 1, AT_BENDING, 1, 2)
+        x1, x2, y1, y2 = self._fields(q, AT_BENDING, 1, 2)
+        u1, u2, w1, w2 = self._fields(v, AT_BENDING, 1, 2)
         bent, along = self._curvature(x1, x2, y1, y2), 1.0 + x1
         rate = u1 * y2 + along * w2 - w1 * x2 - y1 * u2 - 2.0 * bent * (along * u1 + y1 * w1)
         rate /= along**2 + y1**2
@@ -88,8 +92,7 @@ class _Cable(Beam):
         return work @ self.grid_viscosity, work.sum(axis=-1) * self.scaling.material_damping
 
     def bending_moments(self, q: Array) -> Array:
-        (x1, x2), (y1, y2) = self._fields(q, 0, AT_ENDS, 1, 2), self._fields(q, 1, AT_ENDS, 1, 2)
-        return self._curvature(x1, x2, y1, y2) - self.shape.curvature
+        return self._bent(q, AT_ENDS)
 
     def _curvature(self, x1: Array, x2: Array, y1: Array, y2: Array) -> Array:
         x1 = x1 + 1.0
