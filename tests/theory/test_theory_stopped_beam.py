@@ -34,12 +34,14 @@ def transformed(damping: float, s: mp.mpc) -> dict[str, mp.mpc]:
 
 @pytest.mark.parametrize("damping", [3.0, 2.0 / 3.51601526850015, 1e-2])  # the second: a mode damped critically
 def test_modes_give_what_laplace_inversion_by_talbots_contour_gives(damping: float) -> None:
+    """With the last no wave is back from an end at 1e-4. In the end the wall has all of the momentum, 2μℓV₀."""
     beam = StoppedBeam(damping)
-    for time, kind in itertools.product((1e-3, 0.02, 0.3), ("impulse", "reaction", "midspan_moment")):
+    for time, kind in itertools.product((1e-4, 1e-3, 0.02, 0.3), ("impulse", "reaction", "midspan_moment")):
         with mp.workdps(30):
             transform = lambda s, kind=kind: transformed(damping, s)[kind]  # noqa: E731
             exact = mp.invertlaplace(transform, time, method="talbot", degree=50)
         assert float(getattr(beam, kind)(time)) == pytest.approx(float(exact), rel=1e-12, abs=1e-13)
+    assert beam.impulse(np.array([[0.0, 600.0]])) == pytest.approx(np.array([[0.0, 2.0]]), abs=1e-9)
 
 
 @pytest.mark.parametrize("damping", [0.0246, 1e-2, 3e-3, 1e-3, 1e-4])  # the first: shorter than between two looks
@@ -49,18 +51,6 @@ def test_first_release_is_where_the_reaction_first_changes_sign(damping: float) 
     assert found.impulse == pytest.approx(float(beam.impulse(found.time)), rel=1e-12)
     before = np.append(np.linspace(0.02, 1.0 - 1e-6, 400), 1.0 - 1e-9) * found.time
     assert np.all(beam.reaction(before) > 0.0) and beam.reaction(found.time * (1.0 + 1e-9)) < 0.0
-
-
-def test_little_damping_begins_with_the_leading_order_and_the_impulse_ends_at_the_momentum_of_the_beam() -> None:
-    time, early = 3e-4, StoppedBeam(1e-8)
-    r0 = contact_parameters(2.0).r0
-    assert early.impulse(time) == pytest.approx(4.0 * np.sqrt(2.0 / np.pi * time) * r0, rel=1e-5)
-    assert early.midspan_moment(time) == pytest.approx(1.0, rel=1e-9)
-    beam = StoppedBeam(1e-2)
-    assert beam.impulse(0.0) == 0.0
-    # held for ever the beam comes to rest: all of its momentum, 2μℓV₀, has gone into the wall
-    assert beam.impulse(600.0) == pytest.approx(2.0, abs=1e-9)
-    assert beam.impulse(np.full((2, 3), 0.1)).shape == (2, 3)
 
 
 AGEING = [("reaction_ratio", 0.25, 0.5), ("impulse_ratio", 0.25, 1.5), ("impulse_ratio_of_acceleration", 0.25, 2.5)]
