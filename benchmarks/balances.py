@@ -10,8 +10,6 @@ sound and is left out. Prints the worst of each check and its limit; fails where
 half of them are left.
 """
 
-from __future__ import annotations
-
 import argparse
 import sys
 import time

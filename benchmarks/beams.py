@@ -15,8 +15,6 @@ or stops; gravity, gT*/V₀ from 0.03 to 30 to the wall or away from it, or an a
 5 %, of light damping from 0.02 to 0.3 %.
 """
 
-from __future__ import annotations
-
 import math
 import sys
 from collections import defaultdict

@@ -2,8 +2,6 @@
 that is right to 0.02 % in λ₀ and r₀. Goals in seconds are those of an idle machine.
 """
 
-from __future__ import annotations
-
 import math
 import time
 from collections.abc import Iterator

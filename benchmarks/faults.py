@@ -10,8 +10,6 @@ are asked first, files that speak of the module before others, then those of one
 first test that sees it, or UNSEEN. Whether an unseen fault changes a number is for the reader to judge: not all do.
 """
 
-from __future__ import annotations
-
 import argparse
 import ast
 import os

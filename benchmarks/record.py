@@ -1,7 +1,5 @@
 """One row of a benchmark, and the file that keeps rows."""
 
-from __future__ import annotations
-
 import json
 import platform
 from dataclasses import dataclass, field

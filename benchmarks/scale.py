@@ -5,8 +5,6 @@
 Every row is a process of its own, whose largest resident memory the system tells. Prints the tables of docs/scale.md.
 """
 
-from __future__ import annotations
-
 import argparse
 import contextlib
 import multiprocessing

@@ -4,8 +4,6 @@ r"""A beam that shears on a rigid or an elastic wall, by the Hermite path: what 
 them. Units t_s = l_s = V₀ = 1 leave κ/ν and g = κ_sG/E (pipe 0.2, solid section 0.33). No wave comes back.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from bent_beam.history import ImpactHistory

@@ -7,8 +7,6 @@ nothing stored, all compiled beforehand. Each is a multiple of importing NumPy, 
 its goal in seconds of an idle machine. All times are those of processors, of all processes of a command.
 """
 
-from __future__ import annotations
-
 import os
 import statistics
 import subprocess

@@ -4,8 +4,6 @@ compiled LDLᵀ at half bandwidth 3, with constant steps its substitutions alone
 Ratios are medians of pairs, so that other work on the machine weighs on both alike.
 """
 
-from __future__ import annotations
-
 import math
 import statistics
 import time

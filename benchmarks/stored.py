@@ -7,8 +7,6 @@ sample is measured again, agrees within its error bars, and the file gets today'
 where there is no sample, everything is measured anew. ``--renew`` measures everything anew, fresh or not.
 """
 
-from __future__ import annotations
-
 import argparse
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """How long the theory takes for a million quadruples (κ/ν, α, ψ, χ), one core."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Iterator
 

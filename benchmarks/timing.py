@@ -1,7 +1,5 @@
 """Time steps, and plain LDLᵀ of a matrix of the same size, ready to be timed."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numba

@@ -4,8 +4,6 @@ r"""An elastic wall: since when it is as good as rigid, and what the beam's own 
 :mod:`theory.elastic_wall`, :data:`~theory.wall_prediction.MOST_OWN_DAMPING` off the Hermite path. Units t_k, ℓ_k, V₀.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

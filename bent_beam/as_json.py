@@ -1,7 +1,5 @@
 """Plain JSON data: numbers finite, missing values null, everything else as text, lists and dictionaries."""
 
-from __future__ import annotations
-
 import json
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Validation: every part of a run checks its own numbers with these, once, when it is made."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Collection
 

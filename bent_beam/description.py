@@ -1,7 +1,5 @@
 """How the tables of a case file become the quantities of :class:`bent_beam.Impact`."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from typing import Any

@@ -1,7 +1,5 @@
 """What may go wrong, by whose fault: bad input (exit code 2), a solver that cannot finish (3)."""
 
-from __future__ import annotations
-
 import difflib
 from collections.abc import Iterable
 from typing import Any

@@ -10,8 +10,6 @@ part with shear. With Maxwell branches EI is that of the spring beside them: by 
 hold all of the energy.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 

@@ -4,8 +4,6 @@ The child is started with the first file and waits for more; where it does not a
 own alarm (not on Windows).
 """
 
-from __future__ import annotations
-
 import atexit
 import json
 import signal

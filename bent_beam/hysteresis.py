@@ -15,8 +15,6 @@ And what damping does to an answer: whether short waves die out (:func:`is_dampe
 (:func:`converges`).
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from functools import lru_cache

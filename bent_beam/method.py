@@ -9,8 +9,6 @@ and from then on ``bentbeam simulate --path my_code``, ``match``, ``study`` and 
 with ``for_whole_beam`` ``bounce`` and ``sweep`` do, too. Nothing in this project needs to be touched.
 """
 
-from __future__ import annotations
-
 import contextlib
 import dataclasses
 import math

@@ -14,8 +14,6 @@ Each field is a sum of Chebyshev's polynomials, (1) holds at as many points (J. 
 Methods, Dover 2001, chapter 6): A c = ω² B c, whose lowest mode is that of the largest 1/ω² of A⁻¹B.
 """
 
-from __future__ import annotations
-
 import math
 from functools import lru_cache
 

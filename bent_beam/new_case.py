@@ -1,7 +1,5 @@
 """A case file to start from: a beam as its owner knows it, every line with its unit."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from bent_beam.cases import EXAMPLES

@@ -1,7 +1,5 @@
 """Force and stress of a run (:class:`bent_beam.ImpactHistory`) over time."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -5,8 +5,6 @@ l* = √(EI/μ)/V₀,  t* = l*/V₀: the fast layer;     T* = √(μL*⁴/EI): f
 l_s = √(EI/κ_sGA),  t_s = √(EIμ)/κ_sGA: shear;     g = J κ_sGA/(EI μ): κ_sG/E without added mass
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Annotated

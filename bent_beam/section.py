@@ -7,8 +7,6 @@ A further kind is a class here. ``new_case.py`` has a line of each kind, the pre
 have those that the page knows.
 """
 
-from __future__ import annotations
-
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass

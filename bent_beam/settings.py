@@ -1,7 +1,5 @@
 """Every setting that a case file may hold, read off the code: tables, kinds, fields, units, defaults, ranges."""
 
-from __future__ import annotations
-
 import dataclasses
 import difflib
 import inspect

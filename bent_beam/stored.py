@@ -7,8 +7,6 @@ not. A stale file is measured again, or confirmed: a sample is measured anew, ag
 gets today's digest.
 """
 
-from __future__ import annotations
-
 import ast
 import hashlib
 import json

@@ -4,8 +4,6 @@ A beam may be described as its owner knows it. One way or the other, never both:
 and the error names them. A load, or a place, that has no key of its own is a key of ``[impact]`` by its field's name.
 """
 
-from __future__ import annotations
-
 import dataclasses
 import re
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Which versions a result was computed with, when and on what."""
 
-from __future__ import annotations
-
 import contextlib
 import importlib.metadata
 import platform

@@ -6,8 +6,6 @@ and standard deviation. Not stated: numbers at each of :data:`DAMPING_RATIOS`, a
 moment, so of the largest stress.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import asdict, replace

@@ -1,7 +1,5 @@
 """Two runs side by side: numbers at the end of their common time, the largest distance of their curves, settings."""
 
-from __future__ import annotations
-
 import dataclasses
 import math
 from collections.abc import Callable, Mapping

@@ -1,8 +1,6 @@
 """The doors for Python: what the commands of the same names answer, with the same numbers. What a command has more of,
 such as hits or other end times, stands in its driver: :mod:`comparison.bouncing`, :mod:`comparison.predicting` …"""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from copy import deepcopy
 from pathlib import Path

@@ -1,8 +1,6 @@
 """What a reader should know of a case itself, whatever is computed for it; and of a run by its energies at the end: one
 account for every door."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from typing import Any

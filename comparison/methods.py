@@ -9,8 +9,6 @@ A methods file is a list of labelled methods, each with the tables that a case h
     contact = {kind = "middle"}
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from functools import partial
 from pathlib import Path

@@ -5,8 +5,6 @@ its ends, loads, damping and wall: a question to each time, and one to the last 
 and ``bounce`` ask (:mod:`comparison.questions`).
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from functools import partial

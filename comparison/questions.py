@@ -23,8 +23,6 @@ run and in its coarser companion alike: ``waves_absorbed`` shows what that does.
 numbers, from runs that are kept. An error that no companion shows is a known size (CONTRIBUTING.md says where).
 """
 
-from __future__ import annotations
-
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 

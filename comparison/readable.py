@@ -1,8 +1,6 @@
 """Results as a reader writes them: numbers (0.0025, 2.5·10⁻⁸, −1.3, a dash for nothing), units (kN and kN m from a
 hundred on, mm below a centimetre, MPa, ms), tables in plain text as wide as they need to be; and as files."""
 
-from __future__ import annotations
-
 import csv
 import io
 from collections.abc import Iterable, Mapping, Sequence

@@ -1,7 +1,5 @@
 """What a match asks and what it answers: questions and rows; the rows as a document and as a table."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Sequence
 from contextlib import suppress

@@ -1,7 +1,5 @@
 """The settings of a case file as tables for a terminal and as a page of the documentation."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 from bent_beam.settings import Setting, about, settings

@@ -1,7 +1,5 @@
 """What one run did and found, for programs and for readers: the contract of ``bentbeam simulate``."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import asdict, dataclass, replace
 from functools import partial

@@ -1,7 +1,5 @@
 """Answers for a reader, in kN, MPa, ms, with the digits that the error bar carries, of the documents of ``--json``."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -10,8 +10,6 @@ those of its ``answer.js``, which ``solver.js`` measures and ``view.js`` shows; 
 ``MAY_BE_WIDE`` (doubts.py) are warned of, ``OF_THE_WHOLE`` (benchmarks/beams.py) held against finer runs.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 

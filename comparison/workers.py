@@ -1,8 +1,6 @@
 """Many independent calls on this machine's cores (joblib) or on a dask cluster; one that dies costs only itself. And a
 time limit for each: a clock that its runs ask between their steps."""
 
-from __future__ import annotations
-
 import logging
 import os
 import signal

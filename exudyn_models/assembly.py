@@ -6,8 +6,6 @@ first touch, a clamp y and the rotation, by Exudyn's ``CoordinateConstraint``. A
 supports that held both would make a string of it.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Any

@@ -18,8 +18,6 @@ What :func:`exudyn_models.simulate` does on top of the same items, and what each
 - model units, in which one tolerance fits a beam of any size; energies, moments and their balances; warnings.
 """
 
-from __future__ import annotations
-
 import dataclasses
 from collections.abc import Callable
 from dataclasses import dataclass

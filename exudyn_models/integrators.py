@@ -9,8 +9,6 @@ step is below limit/ω, where ω bounds the frequencies (and decay rates) of the
 bending ω ~ 91.7 √(EI/μ)/Δx² of the smallest element. ``simulate`` computes the bound and refuses a larger step.
 """
 
-from __future__ import annotations
-
 import dataclasses
 import math
 from abc import ABC, abstractmethod

@@ -6,8 +6,6 @@ and what :data:`MODELLED` adds to it, by the equations of :mod:`bent_beam.impact
 are laid out by :mod:`exudyn_models.assembly`.
 """
 
-from __future__ import annotations
-
 import dataclasses
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass

@@ -13,8 +13,6 @@ That of the contact law passes through the averages that the scheme applies to a
 steps at a time: a run spends nearly all of its time in Exudyn.
 """
 
-from __future__ import annotations
-
 import math
 from collections import defaultdict
 from typing import Any

@@ -7,8 +7,6 @@ and half of that at its end: in a step much longer than the penalty's own time t
 counts again in the next step, and the beam leaves with more energy than it had.
 """
 
-from __future__ import annotations
-
 import dataclasses
 import math
 

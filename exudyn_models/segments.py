@@ -1,7 +1,5 @@
 """The plan of time steps: segments of equal ones, each taken inside Exudyn without interruption."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Any

@@ -15,8 +15,6 @@ own (``imposes``: closed is what pushes), that decides, and the states are writt
 - the repetitions run out before: the step is not solved.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

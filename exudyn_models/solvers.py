@@ -4,8 +4,6 @@ Newton's method is run modified (the Jacobian is kept while it converges) on a s
 kept. Residuals are forces in model units, of the size of the amplitude.
 """
 
-from __future__ import annotations
-
 import os
 import sys
 from collections.abc import Iterator

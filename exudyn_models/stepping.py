@@ -5,8 +5,6 @@ its steps grow with the smallest gap while it is off the wall. A new segment cos
 hundredth of one.
 """
 
-from __future__ import annotations
-
 import logging
 import math
 import time as clock

@@ -1,8 +1,6 @@
 """What the reader of a run should know: steps, mesh and ends that it could not do with, and how far contact and slopes
 are beyond what is modelled."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 

@@ -14,8 +14,6 @@ Nothing is held, nothing damped but by the beam itself, and every part of the be
 - Elements that are shorter than l_s follow shear waves, and so do steps: h = ½Δx/c_s, or twice as long.
 """
 
-from __future__ import annotations
-
 import dataclasses
 import math
 from typing import Any, TypeVar

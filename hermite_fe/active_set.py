@@ -13,8 +13,6 @@ one of highest index is exchanged (Murty's rule; Júdice & Pires 1994, Comput. O
 Signs are judged against round-off: p against the terms of its equation, a gap against the largest deflection and slope.
 """
 
-from __future__ import annotations
-
 from hermite_fe.banded import FADED, copy
 from hermite_fe.compiled import Array, compiled, compiled_within
 from hermite_fe.constraints import Constraints, Rows, Solver, count_rounds, exchange, update

@@ -11,8 +11,6 @@ run from the last unknown to the first: a change at unknown k affects the factor
 contact zone of a half beam is at the first unknowns.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

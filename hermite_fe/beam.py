@@ -17,8 +17,6 @@ w is positive into the wall; node i has dofs 2i (w) and 2i + 1 (θ). Matrices ar
 lower banded form, shape (4, 2·nodes): ``scipy.linalg.cholesky_banded(…, lower=True)`` takes them as they are.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 

@@ -4,8 +4,6 @@ Numba checks only a function's own file for changes. A folder for each version o
 too. A file that cannot be read or written costs the time to compile, never a wrong answer (:func:`recompiling`).
 """
 
-from __future__ import annotations
-
 import hashlib
 import logging
 import os

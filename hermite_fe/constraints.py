@@ -9,8 +9,6 @@ entry of ``fixed``, and makes the factors of that unknown and of all before it s
 them on a full beam. Which constraints are closed is decided in :mod:`hermite_fe.active_set`.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -25,8 +25,6 @@ zone. A held constraint may pull; what it pulled is recorded as ``held_impulse``
 settings.
 """
 
-from __future__ import annotations
-
 import dataclasses
 from abc import ABC, abstractmethod
 from dataclasses import dataclass

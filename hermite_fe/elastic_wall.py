@@ -18,8 +18,6 @@ that partly covered elements are integrated as exactly as covered ones: four Gau
 and for G Δp. A stop is one such spring at a node.
 """
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

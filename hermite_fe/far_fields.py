@@ -18,8 +18,6 @@ little the onset itself sends back depends on how many waves fit into the sponge
 unlike drag, takes no momentum and leaves rigid motion alone.
 """
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Annotated, ClassVar

@@ -18,8 +18,6 @@ beam, and the literature has several values of r:
 As r → 0 the matrix becomes singular and with it the accelerations: r must be positive, small values show the limit.
 """
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Annotated, ClassVar

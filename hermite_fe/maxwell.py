@@ -17,8 +17,6 @@ Inelasticity, 1998, section 10.3; Kaliske, Rothert, Computational Mechanics 19 (
 energies.)
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The nonsmooth finite-element path as a method: what it is made of, and a run of it."""
 
-from __future__ import annotations
-
 import dataclasses
 from dataclasses import dataclass
 from typing import ClassVar, Self

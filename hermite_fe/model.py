@@ -30,8 +30,6 @@ Without a clearance c the run starts with the first touch. A beam with held ends
 wall: it is then bent by c, and slower, when it touches.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

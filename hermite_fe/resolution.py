@@ -26,8 +26,6 @@ Most of the constants below are studied in tests/comparison/test_constants.py: h
 at most 0.1 %. Those of an elastic wall, of a thin front and of the most elements are not.
 """
 
-from __future__ import annotations
-
 import dataclasses
 import math
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """One run of any :class:`hermite_fe.system.System`: it is stepped, and sampled at the saved instants."""
 
-from __future__ import annotations
-
 import logging
 import time as clock
 from collections.abc import Callable, Sequence

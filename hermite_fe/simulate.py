@@ -1,7 +1,5 @@
 """Simulate an impact and return its history."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any
 

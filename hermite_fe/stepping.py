@@ -1,7 +1,5 @@
 """The data of a time integrator, and compiled functions that the schemes share."""
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """What a reader of a result should know: what the mesh, the steps and the ends of the beam may have done to it."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

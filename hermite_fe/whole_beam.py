@@ -15,8 +15,6 @@ Moreau–Jean does not. Of one point the position is nearer to converged values 
     h = T* Δx/(80 · ½L) and Moreau–Jean;   for κ/ν ≥ 2 or a stop, without a load that presses, Signorini's law.
 """
 
-from __future__ import annotations
-
 import math
 
 from bent_beam.errors import InputError

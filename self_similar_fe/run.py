@@ -17,8 +17,6 @@ is found by bisection (held as far as it is pushed). From there on every node is
 fixed meshes are noisy, and exact in time for both orders: docs/numerics.md. Nothing is taken from ``theory/``.
 """
 
-from __future__ import annotations
-
 import math
 import time as clock
 from collections.abc import Sequence

@@ -5,8 +5,6 @@
 with the Galerkin matrices of D(D + 1) + σ(D + 1) + ∂⁴ − nτ∂², D = ∂_s − (ζ/2)∂_ζ, on Hermite elements in ζ = ξ/√τ.
 """
 
-from __future__ import annotations
-
 import dataclasses
 import itertools
 import math

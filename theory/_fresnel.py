@@ -17,8 +17,6 @@ Every decaying bending wave is made of the same two: with z = e^{−iπ/4}x/2, e
 whose recurrence loses digits for large |z|, where the series has all of them.
 """
 
-from __future__ import annotations
-
 from math import factorial, sqrt
 from typing import Any
 

@@ -23,8 +23,6 @@ g′ = f′ while it flies, g′ = −f′ in contact, and f′(s) = −g′(s �
     f′ = −¼, −¼, +¼   and   g′ = −¼, +¼, +¼   on (0,1), (1,2), (2,3), again from there.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -18,8 +18,6 @@ With an axial force N, tension positive, n = N/(μV₀²) = ε·axial (docs/theo
     λ_c = √τ(λ₀ + (ελ₁ + nλ_N)τ),   r₀ + (εr₁ + nr_N)τ.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

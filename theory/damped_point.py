@@ -18,8 +18,6 @@ elastic moment is erf √T of that of a point, and it spreads once that is κ/ν
 has no closed form.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import erf, erfinv, gamma, hyp1f1

@@ -12,8 +12,6 @@ Code_Aster's test SDNL32 (V5.02.032), here without damping. The open benchmark a
 path is held against it.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

@@ -25,8 +25,6 @@ p is a parabola of the bow's curvature, and with the moment under the force, m =
     Π = τ − ∫Φ(s) √((τ−s)/2π) ds + (ν/κ) ∫ΦΠ/(5√(8π(τ−s))) ds,     Φ = (4√2/3) Π^{3/2} (1 + m ν/2κ).
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from functools import cache

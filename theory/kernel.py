@@ -18,8 +18,6 @@ Under an axial force n the kernel is √(τ/2π)[H(β) + nτ H_N(β)] to first o
 Relative error below 1e-13 of the value, next to a zero of the envelope, for |β| to 1e6 and beyond.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

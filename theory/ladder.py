@@ -32,8 +32,6 @@ straight line, here through the string's ends (his h = 0); L. Amerio, Continuous
 vibrating against an obstacle, Rend. Sem. Mat. Univ. Padova 59 (1978) 67–96, for the law of impact).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

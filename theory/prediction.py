@@ -14,8 +14,6 @@ factors once it spreads; from then on the numbers are those without damping, and
 the leading order of `theory.shear`.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, replace

@@ -16,8 +16,6 @@ differ by √(2/π)(r₀ + r₁τ + r₂τ²): linear equations, order by order.
 of the loads' own free motion.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

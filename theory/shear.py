@@ -24,8 +24,6 @@ It is exact where nothing at all runs ahead of the rim, t < g t_c; until t_c ben
 as e^{−x} ahead, κ < 1 gives X − coth X = λ₀√t, κ > 1 coth X − X = (κ − 1)√(πt/2), so that the zone shrinks again.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import comb
 

@@ -14,8 +14,6 @@ where the denominator is positive, in the latter case without the term c₀. The
 not change. No command asks for it; it stands in docs/theory.md, section 9.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass

@@ -21,8 +21,6 @@ In the zone the beam is straightened, so the wall bends it by κ. Ahead of it th
 x_p² = λ₀² + 2π, bends the beam further and is the largest. At one point, κ/ν ≥ 1, the largest is at the contact: 1.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any

@@ -14,8 +14,6 @@ negligible; the overdamped rest is added by Hurwitz's zeta function. Before anyt
 back the beam has no ends: `theory.damped_point`.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

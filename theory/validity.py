@@ -22,8 +22,6 @@ numbers carry such a range, in which they are right to 2 %, in place of an error
 - **section**: the leading order's stress is beyond the yield stress from the first instant on.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -10,8 +10,6 @@ the rigid wall's. One point: after the later of 29 t_k and 14 (κ/ν)^{1/4} t_k,
 the impulse for thousands of t_k, and no time is given.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Any

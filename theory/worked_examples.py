@@ -9,8 +9,6 @@ The term t sin t grows without bound, the oscillator does not: the reason for tw
 they stand in the gallery and in docs/theory.md, section 12.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.integrate import solve_ivp

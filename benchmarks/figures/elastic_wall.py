@@ -4,8 +4,6 @@
 in ``docs/figures`` (a minute).
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -8,8 +8,6 @@ resolution to resolution; the factor differs between the paths. So runs at the m
 quarter of it are extrapolated by Aitken's rule, and what that adds is the error bar.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass

@@ -4,8 +4,6 @@ impulse and moment the theory has exactly, on both paths.
 ``python -m benchmarks.figures.shear`` writes ``shear.png`` in ``docs/figures`` (a minute).
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -15,8 +15,6 @@ v is taken as piecewise cubic: ∫v = Σ [h/2 (v₁ + v₂) + h²/12 (v₁′ �
 shear they may also be the sections' turning, or zero; the first equation takes of the three what closes it best.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

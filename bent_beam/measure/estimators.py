@@ -12,8 +12,6 @@ First order: the same of the difference between a run at ε and one at ε = 0 on
 both share, the start above all, drops out.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Reaction per length over place and time, from the impulses that the contact points gather."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import numpy as np

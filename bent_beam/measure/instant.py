@@ -4,8 +4,6 @@ What grows is interpolated between saved instants, a force is the mean over a wi
 is that of what pushes in saved intervals around it. A rigid wall has no largest force: it is an impulse over a window.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

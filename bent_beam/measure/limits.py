@@ -1,7 +1,5 @@
 """Limits of what the checks of a run may leave (:mod:`bent_beam.measure.balance`), path by path."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from bent_beam.history import ImpactHistory

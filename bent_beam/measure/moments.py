@@ -6,8 +6,6 @@ taken out of the impulse and its first moment. A centroid of what was pushed in 
 mean of √t, and is carried to the end of the time: exact for λ_c ~ √t.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass

@@ -1,8 +1,6 @@
 """Largest values of a run, of bending moments and of an elastic wall, and how contact was held: for every reader of a
 history. (:mod:`bent_beam.measure.moments` is about moments of the impulse.)"""
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

@@ -15,8 +15,6 @@ no such number (the reaction of a beam that is stopped at a point changes sign a
 hits; each is of one wall, and goes on while the other wall pushes, too.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

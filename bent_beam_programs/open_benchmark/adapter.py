@@ -4,8 +4,6 @@ An adapter is one program, ``adapter PROBLEM.toml RESULT RESOLUTION [ARGUMENTS]`
 ``adapters/adapters.toml`` with the versions they were reviewed with; anybody's own is a file given on the command line.
 """
 
-from __future__ import annotations
-
 import ast
 import hashlib
 import os

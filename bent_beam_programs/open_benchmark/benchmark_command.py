@@ -1,7 +1,5 @@
 """``bentbeam benchmark``."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Annotated
 

@@ -7,8 +7,6 @@ The mesh is three times finer than that of ``bentbeam bounce``. The error bar ho
 elements and steps and another contact law change (docs/whole_impact.md).
 """
 
-from __future__ import annotations
-
 import argparse
 
 from bent_beam.stored import confirm, write

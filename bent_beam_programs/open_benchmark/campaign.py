@@ -11,8 +11,6 @@ The folder of a campaign holds ``results/CODE/PROBLEM-RESOLUTION.npz`` (written 
 is not run again; scores are always taken anew from the results.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import math

@@ -6,8 +6,6 @@ give way: ``theory.elastic_wall``, ``theory.elastic_stop``, with error bars. A w
 elements, with what other elements, steps and another contact law change as error bar.
 """
 
-from __future__ import annotations
-
 from itertools import pairwise
 from typing import Any
 

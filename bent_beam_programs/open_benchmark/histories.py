@@ -1,7 +1,5 @@
 """A history of this project as a result of the open benchmark: the same numbers that any adapter hands in."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from bent_beam.history import ImpactHistory

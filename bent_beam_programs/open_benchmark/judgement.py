@@ -3,8 +3,6 @@
 A number is *clean* where error and bar are both within its limit; else it is *within its bar*, or *off*.
 """
 
-from __future__ import annotations
-
 from dataclasses import asdict, dataclass, field
 from typing import Any
 

@@ -6,8 +6,6 @@ mesh: a code has the same colour and mark in every figure; a point whose contact
 wall pulls is crossed out.
 """
 
-from __future__ import annotations
-
 import io
 import json
 import platform

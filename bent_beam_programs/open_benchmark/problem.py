@@ -5,8 +5,6 @@ stiffness, the mass and the velocity one, in which every reference is known. A f
 numerical.
 """
 
-from __future__ import annotations
-
 import json
 import math
 import re

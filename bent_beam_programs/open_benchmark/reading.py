@@ -4,8 +4,6 @@ A result is an NPZ file, or a CSV table with a JSON file of the same stem beside
 (netCDF). The bounds hold before anything is unpacked: a file of a few bytes can announce terabytes.
 """
 
-from __future__ import annotations
-
 import csv
 import io
 import json

@@ -5,8 +5,6 @@ Values of the shipped problems stand there, so that scoring needs no theory; tho
 ``bounce_reference.json`` (:mod:`.bounce_reference`), those of other parameters come from a run on a coarser mesh.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cache, lru_cache

@@ -5,8 +5,6 @@
 writes both. A change of their keys needs a new version of the schema (docs/guide/submit.md).
 """
 
-from __future__ import annotations
-
 import json
 
 from bent_beam.files import write_atomically

@@ -5,8 +5,6 @@ l* and t*: J in μV₀l*, its first moment Jm over x ≥ 0 in μV₀l*², energi
 ``None`` or empty, never zero. bent_beam_programs.open_benchmark.reading reads the files.
 """
 
-from __future__ import annotations
-
 import json
 import re
 from collections.abc import Iterator, Mapping

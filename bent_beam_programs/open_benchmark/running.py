@@ -4,8 +4,6 @@ An adapter that hangs, crashes, writes rubbish or fills the disk is an outcome w
 and a folder of its own; both are gone afterwards.
 """
 
-from __future__ import annotations
-
 import contextlib
 import json
 import os

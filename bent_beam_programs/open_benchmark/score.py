@@ -4,8 +4,6 @@ A score is a function of the result's numbers alone, so that scoring a saved res
 exact values come from :mod:`.references`, the estimates with their error bars from :mod:`bent_beam.measure`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from itertools import combinations

@@ -8,8 +8,6 @@ At leading order the wall pushes at the front alone, so each length of wall that
 impulse; ahead, where no wave has come, the beam moves freely; and ∫μ(V₀ − v)dx = J, ∫μ(gap − free gap)dx = ∫J dt.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import NamedTuple
 

@@ -11,8 +11,6 @@ series in 1/λ₀ at ∞. Hence
 with p the power with which f grows (κ/ν)^{−p/2}. Where the beam touches in one point, κ/ν ≥ 1, b = 0 is the limit.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import cache, partial
 from itertools import pairwise

@@ -5,8 +5,6 @@ what it is for. After a change, write the guide's copy anew: ``bentbeam predicto
 --overwrite``.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Impacts to look at: each simulated by every method, reduced to one timeline, in units of the fast layer."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, partial

@@ -5,8 +5,6 @@ believe; then numbers and studies. The parameter studies, the printed numbers an
 taken as they are stored. Whatever fails is named on the page, and the page is written all the same.
 """
 
-from __future__ import annotations
-
 import base64
 import io
 import json

@@ -1,7 +1,5 @@
 """The shown impacts as still pictures in the project's style, for paper and for pages without JavaScript."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 

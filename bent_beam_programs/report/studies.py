@@ -2,8 +2,6 @@
 with pictures. They take minutes and are measured elsewhere.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -3,8 +3,6 @@ of damping. All that the report takes of whole impacts from :mod:`comparison` pa
 of ``bentbeam predict``, to the digit.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any

@@ -5,8 +5,6 @@ all integrators with all contacts at leading order, and the integrators at first
 interrupted measurement too, are not run again.
 """
 
-from __future__ import annotations
-
 import os
 import sys
 from collections.abc import Sequence

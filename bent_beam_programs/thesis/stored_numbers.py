@@ -5,8 +5,6 @@
 ``docs/thesis_numbers.md``: all from what ``bentbeam gallery --out GALLERY`` has drawn.
 """
 
-from __future__ import annotations
-
 import argparse
 import csv
 from pathlib import Path

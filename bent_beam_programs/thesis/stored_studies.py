@@ -5,8 +5,6 @@
 ``NAME.png`` beside it.
 """
 
-from __future__ import annotations
-
 import argparse
 from io import BytesIO
 from pathlib import Path

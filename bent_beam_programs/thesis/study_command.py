@@ -1,7 +1,5 @@
 """``bentbeam study``."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Annotated
 

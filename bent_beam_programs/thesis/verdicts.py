@@ -2,8 +2,6 @@
 (:data:`bent_beam_programs.thesis.gallery.numbers.HEAD`). A number that follows from a formula has no same order.
 """
 
-from __future__ import annotations
-
 import math
 from collections import Counter
 from collections.abc import Sequence

@@ -5,8 +5,6 @@ The library's commands are listed here; programs on top of it add theirs by the 
 ``bentbeam.commands``. A command imports what is heavy inside its function: ``bentbeam --help`` answers at once.
 """
 
-from __future__ import annotations
-
 import io
 import os
 import re

@@ -1,7 +1,5 @@
 """The commands on case files: ``bentbeam new``, ``settings``, ``predict``, ``simulate``."""
 
-from __future__ import annotations
-
 from itertools import chain, count
 from pathlib import Path
 from typing import Annotated

@@ -1,7 +1,5 @@
 """The commands on stored histories: ``bentbeam rerun``, ``plot``, ``compare``."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Annotated
 

@@ -1,7 +1,5 @@
 """Options that several commands share, and how progress and a result are shown."""
 
-from __future__ import annotations
-
 import logging
 import math
 import sys

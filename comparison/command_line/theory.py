@@ -1,7 +1,5 @@
 """``bentbeam theory``, and ``match``, which holds methods against it."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Annotated
 

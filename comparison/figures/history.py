@@ -3,8 +3,6 @@
 ``--out``), with its numbers, and as an animation.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any

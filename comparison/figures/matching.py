@@ -4,8 +4,6 @@
 A number that is missing is left out, and the figure says how many were.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from itertools import cycle
 from pathlib import Path

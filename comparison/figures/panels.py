@@ -2,8 +2,6 @@
 are drawn to a scale that is said; a largest value is marked where and when it is, and where the material yields;
 nothing is cut off."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any
 

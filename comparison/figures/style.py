@@ -5,8 +5,6 @@ into the wall, points downwards (:func:`wall_below`).
 Colours are those of Okabe and Ito (2008), told apart by the colour-blind; sizes are those of a journal column.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from io import BytesIO

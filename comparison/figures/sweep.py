@@ -1,8 +1,6 @@
 """A sweep as a picture: over one key curves with error bars, over two a map with contours and a line where the material
 yields. Both in units that a reader writes."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -6,8 +6,6 @@ all of the number leaves the frame. Where there are many methods the paths have 
 colour an integrator, a marker a contact.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path

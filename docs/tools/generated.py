@@ -1,7 +1,5 @@
 """Pages made from the code while the site is built: the settings of a case file, the public names of each package."""
 
-from __future__ import annotations
-
 import importlib
 from typing import Any
 

@@ -5,8 +5,6 @@ Notebooks: nbconvert leaves formulas between dollars in the text of their Markdo
 Single symbols in running text (λ_c, K_w) get their index set low; long names in code may break after an underscore.
 """
 
-from __future__ import annotations
-
 import functools
 import html
 import re

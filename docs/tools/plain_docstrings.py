@@ -1,7 +1,5 @@
 """Docstrings as Markdown: paragraphs as prose, sections and lists of fields as lists, indented lines as they stand."""
 
-from __future__ import annotations
-
 import pydoc
 import re
 import textwrap

@@ -16,8 +16,6 @@ A node is *captured* once its contact has closed. A captured node may be *held*,
   be back from the ends, which may lift what they will.
 """
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass

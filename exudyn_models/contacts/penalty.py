@@ -27,8 +27,6 @@ with both nodes in the wall each has Δx/2, node i alone sΔx, s = y_i/(y_i − 
 the end of the step.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 from typing import Annotated, Any, ClassVar

@@ -9,8 +9,6 @@ further on (:mod:`exudyn_models.contacts.base`). In each step it is led back by 
 1972, Comput. Methods Appl. Mech. Eng. 1, 1). Why, and why only Newmark with γ > ½ is accepted: docs/exudyn.md.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar

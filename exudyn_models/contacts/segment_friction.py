@@ -9,8 +9,6 @@ true geometry. Friction works along the beam: of second order in the deflection,
 limit and little for an axially stiff beam.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from typing import Annotated, ClassVar
 

@@ -6,8 +6,6 @@ For small deflections this is the Hermite element of the beam equation. η, s, i
 c·√(μ/EI)·Δx², which damps only what the mesh cannot resolve: waves of wave number k by the ratio c(kΔx)²/2.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Any, ClassVar

@@ -4,8 +4,6 @@ In model units EI = μ = 1. Coordinates are Exudyn's: displacements from a strai
 at its arc length s_i.
 """
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from functools import cached_property

@@ -8,8 +8,6 @@ the slope; a small rotary inertia keeps the mass matrix regular, and bending alo
 the cable is of fourth. η, s, as of the cable.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any, ClassVar
 

@@ -1,7 +1,5 @@
 """The base class of time integrators: their instants, and the interface that takes steps."""
 
-from __future__ import annotations
-
 import dataclasses
 import math
 from abc import ABC, abstractmethod

@@ -24,8 +24,6 @@ from the right-hand sides of r_p and r_q and not as a remainder, so that a wrong
 energy residual.
 """
 
-from __future__ import annotations
-
 from typing import Annotated, NamedTuple
 
 import numpy as np

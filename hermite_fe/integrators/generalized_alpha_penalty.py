@@ -11,8 +11,6 @@ by default 0.12 and 0.03 %, with 10⁸ and 10⁵ 0.05 and 0.003 %. There is no i
 dampers take in, stored or dissipated, is booked as loss in impacts.
 """
 
-from __future__ import annotations
-
 import dataclasses
 import math
 from dataclasses import dataclass

@@ -17,8 +17,6 @@ change of state: waves are not damped at all, and there is no other damping. Ste
 enough to be stable: K_i with everything else held bounds the frequencies that the massless points leave (Gershgorin).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import ClassVar, NamedTuple
 

@@ -10,8 +10,6 @@ with f the mean force of the wall, or of both, f₁ − f₂, over the step: the
 Exactly, per step, Δ(T + V + W) = h F̄ᵀv̄ − h v̄ᵀC v̄ − the dashpots' loss: there is no algorithmic loss.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import ClassVar, NamedTuple
 

@@ -12,8 +12,6 @@ The level at which the constraints are imposed (``levels``):
   Nonsmooth Dynamics, Springer, 335): the thesis's solver.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Annotated, ClassVar, NamedTuple

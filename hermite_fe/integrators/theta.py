@@ -21,8 +21,6 @@ wall within a step ends it on the wall exactly. The scheme has no impact law: wi
 step later, with θ = ½ it keeps a share of its speed that depends on when in the step it lands.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Annotated, ClassVar, NamedTuple
 

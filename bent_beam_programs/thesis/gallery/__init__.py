@@ -9,8 +9,6 @@ as CSV.
 One small module a theme; the items of a module share runs, so one process draws them.
 """
 
-from __future__ import annotations
-
 import json
 import time as clock
 from collections.abc import Callable, Sequence

@@ -1,7 +1,5 @@
 """Chapter 2: Duffing's oscillator (2.2), the kernel (2.3), the functions φ and the solutions over κ/ν."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any
 

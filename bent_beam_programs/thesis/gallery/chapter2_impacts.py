@@ -2,8 +2,6 @@
 (2.7.2).
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Chapter 3, section 3.3.5, and appendix A.7: contact at nodes and at element middles, with both masses."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from bent_beam_programs.thesis.gallery import drawing

@@ -1,7 +1,5 @@
 """Chapter 3, section 3.5: first order, a₀ = ±700 m/s² (V₀ = 3.5 m/s, K = 0.35 1/m, L = 2 m, τ = 0.05)."""
 
-from __future__ import annotations
-
 import functools
 from dataclasses import replace
 from typing import Any

@@ -2,8 +2,6 @@
 contact (K = 25 1/m, κ/ν = 1.25) with nodes and with middles.
 """
 
-from __future__ import annotations
-
 import functools
 import math
 import re

@@ -1,7 +1,5 @@
 """Chapter 3, sections 3.3.1 to 3.3.4: time step, mesh, spectral radius and restitution; the filter."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Chapter 3, sections 3.1 and 3.2: statics of the Hermite beam, the bouncing ball; and the shape functions (A.6)."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from bent_beam_programs.thesis.gallery.drawing import NIL, plain_line

@@ -2,8 +2,6 @@
 and middles (3.22).
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

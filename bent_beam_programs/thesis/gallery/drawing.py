@@ -1,7 +1,5 @@
 """Lines, panels and maps of the reaction that several items share."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple

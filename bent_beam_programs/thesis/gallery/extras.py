@@ -2,8 +2,6 @@
 over the whole zone (4.0.6); which mass matrix its numbers ask for.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The table of printed numbers: every one that this project can compute, section by section, beside its own."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 

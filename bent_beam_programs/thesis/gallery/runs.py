@@ -3,8 +3,6 @@
 V₀ = 20 m/s, EI = 1 N m², μ = 1 kg/m, L = 50 m throughout (3.2.1, 3.4); K and τ as each figure asks.
 """
 
-from __future__ import annotations
-
 import functools
 import time as clock
 from collections.abc import Mapping, Sequence

@@ -8,8 +8,6 @@ All are listed in ``STUDIES``; :func:`run_study` runs one on any case::
     print(run_study("mesh", load_case("cases/thesis_K10.toml")).text())
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Sequence
 from pathlib import Path

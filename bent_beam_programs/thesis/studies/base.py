@@ -1,7 +1,5 @@
 """A study: runs in; a table, one picture and a fixed sentence out."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any

@@ -7,8 +7,6 @@ with the thesis's step, mesh and growth, at several element lengths: as it stand
 rotations (scaled to a unit diagonal, multipliers eliminated). The runs with these elements show their energy residual.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

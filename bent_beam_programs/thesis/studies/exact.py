@@ -6,8 +6,6 @@ Energies (leading order) are of the whole beam: the fast layer holds all the ene
 motion, V₀∫R dt; a part of it is strain energy, the rest is kinetic. Nothing is lost.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from functools import cached_property

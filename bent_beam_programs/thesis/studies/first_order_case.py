@@ -7,8 +7,6 @@ contact length on the thesis's finite beam with the thesis's settings, on a fini
 infinite one. The fit tends to ελ₁ only as t_f → 0: at the thesis's t_f the correction is a third of the leading order.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 

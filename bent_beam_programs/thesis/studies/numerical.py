@@ -2,8 +2,6 @@
 their coupling c = W_{j,j±1}/W_jj (:mod:`hermite_fe.contacts`), restitution and damping.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 from itertools import product

@@ -1,7 +1,5 @@
 """Studies of Exudyn's models: penalty contact, true geometry, friction."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from bent_beam.cases import Case

@@ -5,8 +5,6 @@ Parts and fields are named, the path does not matter: a method shows its parts b
 becomes a row with that reason.
 """
 
-from __future__ import annotations
-
 import dataclasses
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass

@@ -15,8 +15,6 @@ way, and the time is proportional to h. The text gives the order and the cut-off
 usual one.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from functools import cached_property

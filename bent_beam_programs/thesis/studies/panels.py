@@ -4,8 +4,6 @@ Varied settings are thin coloured lines, references the markers of their path, t
 below.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 from functools import partial
