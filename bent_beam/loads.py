@@ -9,11 +9,8 @@ A load that a :class:`Place` goes with is a force at a point (``Impact.forces``)
 that have a ``group``. A solver names the loads and other features that it models in its ``MODELLED``, and refuses the
 rest; theory and what compares with it do so, too (:func:`unmodelled`). How to add one: docs/guide/add-load.md.
 
-A beam with held ends,
-
-    free       EI y_xx = EI y_xxx = 0        hinged     y = const., EI y_xx = 0        clamped     y, y_x = const.
-
-arrives unbent from its bow, in the lowest mode that its ends allow (:mod:`bent_beam.modes`), with V₀ in its middle.
+A beam with held ends arrives unbent from its bow, in the lowest mode that they allow (:mod:`bent_beam.modes`), with V₀
+in its middle.
 
 A wall that gives way pushes with R = max(0, k p + c ṗ) per length of beam where the penetration p is positive:
 

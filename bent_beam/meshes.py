@@ -36,11 +36,9 @@ class Mesh(Protocol):
 
     def nodes(self, half_length: float) -> Array:
         """Node places from 0 to ``half_length``, m, strictly increasing, shape (n,)."""
-        ...
 
     def refined(self, factor: float) -> Mesh:
         """The same mesh with elements ``factor`` times shorter everywhere."""
-        ...
 
 
 def checked_nodes(nodes: Array) -> Array:

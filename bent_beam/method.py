@@ -56,11 +56,9 @@ class Method(Protocol):
     @property
     def label(self) -> str:
         """How rows, curves and tables call it."""
-        ...
 
     def refuses(self, impact: Impact) -> str | None:
         """Why this method cannot take the impact, naming the field (``None``: it can)."""
-        ...
 
     def simulate(
         self, impact: Impact, *, end_time: float | None = None, save: Save = 200, progress: Progress | None = None
@@ -70,7 +68,6 @@ class Method(Protocol):
         Raises :class:`bent_beam.InputError` for what it refuses, :class:`bent_beam.SimulationError` when it cannot
         finish; any other error is a failure too.
         """
-        ...
 
 
 def chosen_for(method: M, impact: Impact, end_time: float) -> M:
