@@ -29,10 +29,8 @@ ACROSS = 0.01  # |N|/κ_sGA, likewise
 STRAIGHTENED = 0.1  # N L²/(π² EI) of either sign, from which an axial force deserves one
 NOTABLE_LOSS = 0.02  # of the initial energy, likewise
 WIDE, LEAST_RESTITUTION = 0.1, 0.3  # of a number, an error bar, likewise; a smaller restitution counts as this
-MAY_BE_WIDE = {
-    **{name: WHOLE[name].title for name in ("restitution", "impulse", "last_contact", "peak_moment", "peak_force")},
-    "half_contact_length": "half contact length",
-}
+MAY_BE_WIDE = {name: WHOLE[name].title for name in ("restitution", "impulse", "peak_moment", "peak_force")}
+MAY_BE_WIDE |= {"half_contact_length": "half contact length"}
 
 
 def doubts(impact: Impact, section: Section | None) -> list[str]:
