@@ -50,7 +50,7 @@ class Scales(Part):
     wall_curvature: Annotated[float, Quantity("1/m", "K_w, positive where the wall is concave; less than K")] = 0.0
     natural_curvature: Annotated[
         float | None,
-        Quantity("1/m", "curvature without stress, K unless given; the rest of K is elastic and adds its moment"),
+        Quantity("1/m", "curvature without stress, K unless given; moments at the ends hold the rest of K"),
     ] = None
     rotation: Annotated[float, Load("rad/s", "rocking about the middle (runs of the full beam)", powers=(1, 1))] = 0.0
     first_touch: Annotated[float, Quantity("m", "the bow's apex from the middle (runs of the full beam)")] = 0.0

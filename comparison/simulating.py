@@ -71,6 +71,7 @@ class Simulated:
             "seconds": history.seconds,
             "time": end,
             "clearance": impact.wall_clearance,
+            "begins": self._begins(),
             "half_contact_length": self._beside("half_contact_length", row.half_contact_length if row else None),
             "total_impulse": self._beside("impulse", row.impulse if row else None),
             "restitution": self._beside("restitution", None),
@@ -116,10 +117,21 @@ class Simulated:
         section = self.case.section
         return [*doubts(self.case.impact, section), *told_by(self.numbers, section), *band, *self.runs.warnings]
 
+    def _begins(self) -> str:
+        """What the beam does at the time 0."""
+        impact = self.history.impact
+        if impact.wall_clearance:
+            return "it passes its rest position"
+        begin, end = impact.wall_span
+        at_apex = begin <= impact.first_touch <= end or not impact.relative_curvature
+        return "first contact" if at_apex else "its apex passes the line of the wall"
+
     def _not_reached(self) -> list[str]:
-        """Of a beam that swings up to its wall."""
-        clearance, pushed = self.history.impact.wall_clearance, np.any(self.history.array("total_impulse"))
-        return [] if pushed or not clearance else [f"the beam has not reached its wall, {clearance:g} m away"]
+        """Of a beam that has not touched its wall."""
+        if np.any(self.history.array("total_impulse")):
+            return []
+        away = self.history.impact.wall_clearance
+        return [f"the beam has not reached its wall, {away:g} m away" if away else "the beam has not touched the wall"]
 
     def _reflected(self, infinite: Prediction | None, end: float) -> list[str]:
         """From when on waves are back from the ends, where that ends the theory and the run does not say so."""

@@ -268,9 +268,8 @@ def run_text(found: dict[str, Any], verbose: bool = False) -> str:
     if found["restitution"]["value"] is not None:
         lines.append(_compared("coefficient of restitution", found["restitution"]))
     lines.append(["lost to steps and mesh", f"{100.0 * found['numerical_loss']:.2g}", "% of the energy", ""])
-    start = "it passes its rest position" if found["clearance"] else "first contact"
     text = [
-        f"{found['path']}, {1e3 * found['time']:.4g} ms after {start} ({found['seconds']:.2g} s for one run)",
+        f"{found['path']}, {1e3 * found['time']:.4g} ms after {found['begins']} ({found['seconds']:.2g} s for one run)",
         "",
         text_table(["", "value", "unit", "theory"], lines + (_of_experts(found) if verbose else [])),
         "",
