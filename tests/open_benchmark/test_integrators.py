@@ -1,8 +1,8 @@
-"""This project's integrators on problems of the benchmark (:mod:`benchmarks.ladder`)."""
+"""This project's integrators on problems of the benchmark (:mod:`bent_beam_programs.open_benchmark.ladder`)."""
 
 import pytest
 
-from benchmarks.ladder import INTEGRATORS, LAWS, PROBLEMS, bar, errors_of, stopped_beam
+from bent_beam_programs.open_benchmark.ladder import INTEGRATORS, LAWS, PROBLEMS, bar, errors_of, stopped_beam
 
 QUICK = ("Moreau–Jean θ = ½", "Signorini, new position")
 NAMES = [pytest.param(name, marks=() if name in QUICK else pytest.mark.verify) for name in INTEGRATORS]
