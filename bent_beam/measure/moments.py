@@ -34,8 +34,7 @@ class Moments:
     """A history reduced to what the estimators need, in fast-layer units, each of shape (times,).
 
     tau; impulse I(τ) and first moment J(τ) of one side's concentrated reaction; pressure p(τ), the uniform reaction
-    (where it was not taken out, what the zone bears of I);
-    front λ_c(τ); lift, the largest gap inside nine tenths of the contact zone over V₀t.
+    (where it was not taken out, what the zone bears of I); front λ_c(τ); lift, as of :func:`lift`.
     """
 
     tau: Array
@@ -63,9 +62,8 @@ def one_side(history: ImpactHistory) -> tuple[Array, Array]:
 
 def _outwards(history: ImpactHistory) -> Iterator[tuple[Array, Array, Array]]:
     """Of each interval between saved instants, contact points from the centre outwards: place (m), impulse gathered up
-    to there on one side (N s), and length that is the point's own (m)."""
+    to there on one side (N s), length that is the point's own (m). A point that moves is taken halfway."""
     for k in range(1, history.time.size):
-        # a moving contact point has gathered its impulse on the way: its place is taken halfway
         places = np.abs(0.5 * (history.contact_positions(k - 1) + history.contact_positions(k)))
         order = np.argsort(places)
         places = places[order]
@@ -131,8 +129,7 @@ def _centroids(moment: Array, impulse: Array, otherwise: Array) -> Array:
 
 
 def _smooth(time: Array, values: Array) -> Array:
-    """Running average over the times from a quarter of each to as much beyond: the uniform reaction is steady, its
-    measurement is not."""
+    """Running average from a quarter of each time to as much beyond: the reaction is steady, its measurement is not."""
     gathered = np.concatenate([[0.0], np.cumsum(values[1:] * np.diff(time))])
     first = np.searchsorted(time, 0.25 * time)
     last = np.minimum(np.searchsorted(time, 1.75 * time), time.size - 1)
@@ -177,8 +174,7 @@ def first_front(history: ImpactHistory, time: float) -> tuple[float, float]:
 
     The centroids of what was pushed over the tenth of the time before, and the tenth after, lie where the front was at
     the means of √t: between them it is a power of time, or straight in √t where the zone ends or begins. At the end
-    of a record it is carried on as √t.
-    """
+    of a record it is carried on as √t."""
     instants = history.time
     k = int(np.argmin(np.abs(instants - time)))
     if k == 0:
@@ -208,8 +204,7 @@ def _zone_end(history: ImpactHistory, first: int, k: int) -> float:
     """The centroid, m, of what was pushed between two saved instants, less what the zone behind the front bears.
 
     Within :data:`ZONE` of where the front was at first, what was pushed is summed; the rest of the zone is taken to
-    bear as much per length. Nothing is assumed of a zone that damping or its start keeps off the wall.
-    """
+    bear as much per length. Nothing is assumed of a zone that damping or its start keeps off the wall."""
     share = ZONE * float(_carried(1.0, history.time[k], history.time[first]))  # the front at first over the centroid
     pushed = history.array("impulse", k) - history.array("impulse", first)
     places = np.abs(history.contact_positions(k))
@@ -228,8 +223,7 @@ def _zone_end(history: ImpactHistory, first: int, k: int) -> float:
 
 def half_contact_length(history: ImpactHistory, k: int) -> float | None:
     """Distance of the outermost push from the first touch, m: the median, by time, over the saved intervals around
-    instant ``k`` in which the wall pushes; ``None`` without one. Nothing is assumed about what presses inside, and a
-    middle that has lifted off does not count less."""
+    instant ``k`` in which the wall pushes; ``None`` without one. A middle that has lifted off does not count less."""
     rims, durations = _rims(history, k)
     if not rims.size:
         return None
