@@ -154,6 +154,11 @@ def test_a_zone_within_few_elements_has_no_sure_length() -> None:
     assert abs(found["half_contact_length"].known - exact.times[0].half_contact_length) <= found["lambda0"].spread
 
 
+def test_a_beam_off_the_wall_has_no_contact() -> None:
+    found = numbers(Impact.dimensionless(0.5, length=40.0).replace(acceleration=-0.6), 3.0)
+    assert found["half_contact_length"].value is None and found["reaction"].known == 0.0
+
+
 @pytest.mark.parametrize("time", [1e-3, 0.1])
 def test_a_penalty_that_is_chosen_suits_the_run(time: float) -> None:
     """In units of t*: a front at 1e-3 t* is ten times thinner than at 0.1 t*."""
