@@ -37,7 +37,7 @@ ELEMENTS = 200  # of a half beam that is followed until it has left
 SHEARED_ELEMENTS, SHEARED_STEP = 100, 0.0125  # likewise with shear; step, T*, over the element's share of the half beam
 HARD = 2.0  # times as many elements: with shear where κ/ν < THICK or η/T* < DAMPED; in first instants of felt damping
 THICK, DAMPED = 0.35, 3e-4
-ONE_POINT = 2.0  # κ/ν from which on a whole impact with shear is that of one point
+ONE_POINT = 2.0  # κ/ν from which on a whole impact is that of one point, with shear, too
 LARGEST_ELASTIC = 0.25  # of ℓ_k: the longest element before a wall that gives way
 PRESSED = 0.5  # of the beam's momentum: loads that give it more in a T* count as pressing
 

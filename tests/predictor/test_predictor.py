@@ -335,6 +335,8 @@ def test_laws_that_agree_by_chance_are_compared_on_half_of_the_elements_on_the_p
         assert found["names"] == ["base", "half", "law", "lawOfHalf"]
         bars = [found[name]["bar"] for name in ("restitution", "moment")]
         assert bars == pytest.approx([FACTOR * (0.02 + laws), FACTOR * (0.02 + law)])
+    (point,) = numbers_of([({"problem": {"kappa": 2}},)])
+    assert point["names"] == ["base", "half", "law"]
 
 
 @pytest.mark.verify

@@ -26,7 +26,7 @@ const Answer = (() => {
     const half = part(0.5), between = part(0.7); // springs err by where the rim stands between nodes: half may agree by chance
     if (p.wall && converges(p)) return { base, half, between, ...(p.eta ? {} : { finer: part(2) }) };
     const other = (run) => ({ ...run, atPosition: !base.atPosition });
-    if (p.eta) return { base, half, law: other(base), lawOfHalf: other(half) };
+    if (p.eta) return { base, half, law: other(base), ...(p.kappa < RUNS.point ? { lawOfHalf: other(half) } : {}) };
     return Object.fromEntries(DRAWN.map((elements, i) => {
       const drawn = { elements, steps: round((0.5 + 0.2 * i) * elements ** 2), rebound: (i % 3) / 2 };
       return [i ? `drawn ${i}` : "base", drawn];
