@@ -147,6 +147,8 @@ def test_laws_that_agree_by_chance_are_compared_on_half_of_the_elements_too() ->
     causes = ("mesh_and_step", "contact_law", "contact_law_coarser")
     sheared = dataclasses.replace(question, impact=question.impact.replace(shear_stiffness=1e4))
     assert tuple(question.companions()) == tuple(sheared.companions()) == causes
+    half, law, law_of_half = (method.for_whole_beam(impact).mesh for impact, method in question.companions().values())
+    assert half == law_of_half == UniformMesh(2.0 * law.element_length)
     timed, point = (dataclasses.replace(question, **one) for one in ({"until": LATE}, {"impact": problem(2.0, 1e-2)}))
     assert tuple(timed.companions()) == tuple(point.companions()) == causes[:2]
     for law, both, laws in ((0.01, 0.04, 0.06), (0.07, 0.04, 0.07), (0.01, None, 0.01)):
