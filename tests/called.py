@@ -9,6 +9,7 @@ from typing import Any
 
 from comparison.command_line.app import run
 
+HEARS = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)\n"
 MAIN = "from comparison.command_line.app import main; main()"
 CASE = """[beam]
 bending_stiffness = 1.0
@@ -48,7 +49,10 @@ def refused(*words: object) -> str:
 
 
 def started(*words: object, program: str = MAIN, **how: Any) -> subprocess.Popen[str]:
-    """``bentbeam``, or another program, in a session of its own: a signal to its group reaches its workers too."""
+    """``bentbeam``, or another program, in a session of its own: a signal to its group reaches its workers too.
+
+    It hears Ctrl-C, which a shell without job control has the children of its background jobs ignore.
+    """
     pipe = subprocess.PIPE
     chosen = {"stdout": pipe, "stderr": pipe, "text": True, "start_new_session": True} | how
-    return subprocess.Popen([sys.executable, "-c", program, *map(str, words)], **chosen)
+    return subprocess.Popen([sys.executable, "-c", HEARS + program, *map(str, words)], **chosen)
