@@ -33,6 +33,7 @@ from comparison.rows import (
     match_document,
     match_table,
     reason_of,
+    shows_zone,
     with_theory,
 )  # fmt: skip
 from comparison.runs import Run, kept
@@ -171,6 +172,10 @@ def answer(question: MatchQuestion, store: RunStore, limit: float | None = None)
         warnings.append(f"wide error bar: λ₀ = {leading.lambda0}, r₀ = {leading.r0}")
     if estimate is not None and estimate.r1.spread > WIDE_FIRST * max(abs(estimate.r1.known), 1.0):
         warnings.append(f"wide error bar: r₁ = {estimate.r1}")
+    if estimate is not None and not shows_zone(question, leading):
+        warnings.append(
+            f"λ₁ is missing: the run shows no zone that spreads (λ₀ = {leading.lambda0}); take finer elements"
+        )
     warnings += _of_rigid_wall(question)
     readings = [r.reading for r in fine.runs]
     holds = [reading["hold"] for reading in readings if reading["hold"]]

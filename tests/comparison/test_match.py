@@ -14,6 +14,7 @@ from strangers import Stranger
 
 from bent_beam import ImpactHistory, InputError, load_case
 from bent_beam.measure.numbers import MISSING, Number
+from bent_beam.meshes import UniformMesh
 from comparison.figures.matching import leading_figure, write_match
 from comparison.matching import PERTURBATION, _peak_force, answer, match
 from comparison.methods import methods_from_file
@@ -155,6 +156,15 @@ def test_bars_wider_than_2_percent_of_leading_and_10_of_first_order_are_a_warnin
     assert [symbol for symbol in ("λ₀", "r₀", "λ₁", "r₁") if f"{symbol} = " in told] == said.split()
     assert ("λ₀" in said) == (row.r0.bar > 0.02 * row.r0.value) and ("r₁" in said) == (row.r1.bar > 0.1 * row.r1.value)
     assert max(off(row.lambda1, 1.0), off(row.r1, 1.0)) < 0.01  # what the zone bears of its load is none of its rim's
+
+
+def test_lambda1_of_a_zone_that_the_run_does_not_show_is_missing_and_said_so():
+    """Elements longer than the zone at κ/ν = 0.95; at 1.05 there is one point, and λ₁ = 0."""
+    coarse = HermiteFE(mesh=UniformMesh(element_length=0.3))
+    flat, sharp = (answer(MatchQuestion(coarse, k, (3.0, 0.0, 0.0), error_bars="drift"), KEEP) for k in (0.95, 1.05))
+    assert not flat.lambda1.measured and flat.lambda1.theory and flat.r1.measured
+    assert any(warning.startswith("λ₁ is missing") for warning in flat.warnings)
+    assert sharp.lambda1.covered and not any("λ₁" in warning for warning in sharp.warnings)
 
 
 def test_a_wall_that_gives_way_has_its_largest_force_in_the_row_and_says_from_when_on_it_is_as_a_rigid_one():
