@@ -6,13 +6,9 @@ from typing import Annotated
 import typer
 
 from bent_beam_programs.open_benchmark.problem_command import problem_ids
-from comparison.command_line.options import Json, Quiet, complete, emit, progress, stated
+from comparison.command_line.options import Json, Quiet, emit, names_of, progress, stated
 
-
-def solver_names(incomplete: str) -> list[str]:
-    from bent_beam_programs.open_benchmark.adapter import shipped_adapters
-
-    return complete(list(shipped_adapters()), incomplete)
+solver_names = names_of("bent_beam_programs.open_benchmark.adapter:shipped_adapters")
 
 
 def benchmark(

@@ -6,13 +6,9 @@ from typing import Annotated
 
 import typer
 
-from comparison.command_line.options import Overwrite, check_out, complete
+from comparison.command_line.options import Overwrite, check_out, names_of
 
-
-def problem_ids(incomplete: str) -> list[str]:
-    from bent_beam_programs.open_benchmark.problem import shipped_ids
-
-    return complete(list(shipped_ids()), incomplete)
+problem_ids = names_of("bent_beam_programs.open_benchmark.problem:shipped_ids")
 
 
 def problem(

@@ -5,13 +5,9 @@ from typing import Annotated
 
 import typer
 
-from comparison.command_line.options import Jobs, Json, Quiet, complete, emit, printable, progress, stated
+from comparison.command_line.options import Jobs, Json, Quiet, emit, names_of, printable, progress, stated
 
-
-def item_names(incomplete: str) -> list[str]:
-    from bent_beam_programs.thesis.gallery import ITEMS
-
-    return complete(list(ITEMS), incomplete)
+item_names = names_of("bent_beam_programs.thesis.gallery:ITEMS")
 
 
 def gallery(

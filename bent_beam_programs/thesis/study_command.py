@@ -7,11 +7,7 @@ import typer
 
 from comparison.command_line import options
 
-
-def study_names(incomplete: str) -> list[str]:
-    from bent_beam_programs.thesis.studies import STUDIES
-
-    return options.complete(["list", *STUDIES], incomplete)
+study_names = options.names_of("bent_beam_programs.thesis.studies:STUDIES", "list")
 
 
 def study(

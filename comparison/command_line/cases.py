@@ -8,19 +8,10 @@ import typer
 
 from bent_beam.errors import InputError, SimulationError
 from comparison.command_line import options
-from comparison.command_line.options import check_out, complete, emit, of_path, progress
+from comparison.command_line.options import check_out, emit, names_of, of_path, progress
 
-
-def section_kinds(incomplete: str) -> list[str]:
-    from bent_beam.section import SECTIONS
-
-    return complete(list(SECTIONS), incomplete)
-
-
-def example_names(incomplete: str) -> list[str]:
-    from bent_beam.new_case import examples
-
-    return complete(sorted(examples()), incomplete)
+section_kinds = names_of("bent_beam.section:SECTIONS")
+example_names = names_of("bent_beam.new_case:examples")
 
 
 def new(

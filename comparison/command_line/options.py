@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from pkgutil import resolve_name
 from typing import Annotated, Any
 
 import typer
@@ -15,10 +16,14 @@ import typer
 from bent_beam.errors import InputError
 
 
-def path_names(incomplete: str) -> list[str]:
-    from bent_beam.method import paths
+def names_of(where: str, *first: str) -> Callable[[str], list[str]]:
+    """Completion by ``first`` and the names in ``module:object``, or that it returns; imported when a shell asks."""
 
-    return complete(paths(), incomplete)
+    def complete(incomplete: str) -> list[str]:
+        found = resolve_name(where)
+        return [name for name in (*first, *(found() if callable(found) else found)) if name.startswith(incomplete)]
+
+    return complete
 
 
 def setting_names(incomplete: str) -> list[str]:
@@ -26,17 +31,12 @@ def setting_names(incomplete: str) -> list[str]:
     from bent_beam.settings import settings
 
     known = {f"{s.table}.kind={s.kind}" if s.name == "kind" else f"{s.table}.{s.name}=" for s in settings()}
-    return complete(sorted(known), incomplete)
-
-
-def complete(known: list[str], incomplete: str) -> list[str]:
-    """The known words that begin as typed."""
-    return [word for word in known if word.startswith(incomplete)]
+    return [name for name in sorted(known) if name.startswith(incomplete)]
 
 
 def of_path(help: str) -> Any:
     """The option ``--path``; which paths a command takes, and how many, is its own to say."""
-    return typer.Option("--path", help=help, autocompletion=path_names)
+    return typer.Option("--path", help=help, autocompletion=names_of("bent_beam.method:paths"))
 
 
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON document on standard output and nothing else.")]
