@@ -38,8 +38,7 @@ from bent_beam.method import Method, Progress, for_whole_beam, refined, simulate
 
 EARLY = 0.003  # T*
 COARSER, FINER = 0.5, 2.0
-OF_REBOUND = "contact_law_coarser"
-"""The companion that is compared with ``mesh_and_step``, not with the run."""
+OF_REBOUND = "contact_law_coarser"  # the companion that is compared with ``mesh_and_step``, not with the run
 DRAWN, SEED = 5, 15  # runs of an ensemble at a time, without damping
 WEAK = 3e-5  # η/T*: with less a beam keeps waves that grid viscosity absorbs
 RESOLVES = 0.05  # elements finer by RESOLVES/√(t/T*) than those of a whole beam are a tenth of √(ct)

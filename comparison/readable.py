@@ -17,11 +17,10 @@ RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 SMALL, LARGE = 1e-3, 1e5  # beyond them a power of ten
 WIDEST = 400  # characters of a table
 
-BEAMS = {
+BEAMS = {  # which beam an answer is of, by ``Impact.model``
     "timoshenko": "The beam bends and shears (Timoshenko).",
     "euler_bernoulli": "The beam bends and does not shear (Euler and Bernoulli).",
 }
-"""Which beam an answer is of, by ``Impact.model``."""
 
 REGIMES = {
     "discrete": "The contact stays one point.",

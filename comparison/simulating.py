@@ -18,14 +18,7 @@ from bent_beam.measure.reduction import hold_of, pull_of
 from bent_beam.measure.whole_impact import hits
 from comparison.bounced import OF_WHOLE, Bounce, scales
 from comparison.bouncing import whole_numbers, whole_reading
-from comparison.doubts import (
-    comparable,
-    doubts,
-    energy_at_end,
-    energy_residual,
-    numerical_loss,
-    told_by,
-)
+from comparison.doubts import comparable, doubts, energy_at_end, energy_residual, numerical_loss, told_by
 from comparison.predicting import instants_reading, numbers_at
 from comparison.questions import Progress, Question
 from comparison.runs import Runs, runs_of

@@ -49,8 +49,7 @@ WHOLE = {
 NUMBERS = tuple(name for name in WHOLE if name not in ("peak_stress", "peak_force"))
 """Those of every whole impact: a stress needs a section, a largest force a wall that gives way."""
 FINAL = tuple(name for name, about in WHOLE.items() if about.final)
-MAY_RISE = ("peak_moment", "peak_force")
-"""Those that may still grow if a run ends with the beam at the wall."""
+MAY_RISE = ("peak_moment", "peak_force")  # those that may still grow if a run ends with the beam at the wall
 
 HIT = {
     "wall": "wall",

@@ -35,8 +35,7 @@ from hermite_fe.run import integrate
 from hermite_fe.system import ContactRows, System
 
 Array = np.ndarray[Any, Any]
-Scheme = Callable[[float], Any]
-"""An integrator of a time step."""
+Scheme = Callable[[float], Any]  # an integrator of a time step
 
 EVEN = {name: partial(kind, growth=0.0) for name, kind in KINDS.items()}
 INTEGRATORS: dict[str, Scheme] = {

@@ -1,6 +1,5 @@
 """What the report asks of every method, how good an answer has to be, the rows as cells of its tables, and many of them
-in a few numbers.
-"""
+in a few numbers."""
 
 import math
 from collections.abc import Iterable, Sequence

@@ -1,6 +1,5 @@
 """What is stored of the thesis, for the page to show: its parameter studies and the table of its printed numbers, each
-with pictures. They take minutes and are measured elsewhere.
-"""
+with pictures. They take minutes and are measured elsewhere."""
 
 from pathlib import Path
 from typing import Any
@@ -16,8 +15,7 @@ LEFT_OUT = ("strain", "nodes", "steps", "seconds")  # of the tables: what says n
 
 def stored_studies(file: Path = STUDIES) -> list[dict[str, Any]]:
     """The stored studies in their order, each as it is stored, with its table as text (``headings``, ``cells``), the
-    ``reason`` why it was left out, if it was, ``stale``: code has changed since, and the file of its ``picture``.
-    """
+    ``reason`` why it was left out, if it was, ``stale``: code has changed since, and the file of its ``picture``."""
     stale = stored.is_stale(file)
     found = []
     for study in stored.read(file)["studies"]:

@@ -1,7 +1,6 @@
 """The drill pipe of ``cases/drill_pipe.toml`` in SI units: its first instants, its whole impact, and that over a range
 of damping. All that the report takes of whole impacts from :mod:`comparison` passes here, so that its numbers are those
-of ``bentbeam predict``, to the digit.
-"""
+of ``bentbeam predict``, to the digit."""
 
 from collections.abc import Mapping
 from pathlib import Path

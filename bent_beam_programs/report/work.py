@@ -57,8 +57,7 @@ MEASUREMENTS = (
 
 def stored_measurements() -> list[dict[str, Any]]:
     """What is stored, in the order of :data:`MEASUREMENTS`: title, command, date, picture; ``lost``: label and reason
-    of the rows without a number; ``stale``: code has changed since.
-    """
+    of the rows without a number; ``stale``: code has changed since."""
     found = []
     for measurement in MEASUREMENTS:
         document = stored.read(file := STORED / f"{measurement.name}.json")

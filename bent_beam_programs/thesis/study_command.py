@@ -26,9 +26,7 @@ def study(
     assignments: options.Set = None,
     methods: options.Methods = None,
     refine: options.Refine = None,
-    out: Annotated[
-        Path | None, typer.Option(help="Folder for figure, table and conclusion; earlier ones are replaced.")
-    ] = None,
+    out: Annotated[Path | None, options.folder_for("figure, table and conclusion")] = None,
     jobs: options.Jobs = 1,
     as_json: options.Json = False,
     quiet: options.Quiet = False,

@@ -1,6 +1,5 @@
 """Printed numbers of the thesis and the class of each, by the rules that head their table
-(:data:`bent_beam_programs.thesis.gallery.numbers.HEAD`). A number that follows from a formula has no same order.
-"""
+(:data:`bent_beam_programs.thesis.gallery.numbers.HEAD`). A number that follows from a formula has no same order."""
 
 import math
 from collections import Counter
@@ -80,8 +79,7 @@ class Printed:
 
 def counts(rows: Sequence[Sequence[str]]) -> list[tuple[str, int, int, int, int]]:
     """(class, rows in it, the same with (3.1.8) throughout, and both of those alone that test a simulation), from rows
-    of :meth:`Printed.row`.
-    """
+    of :meth:`Printed.row`."""
     pairs = [(row[5], row[6].rpartition(": ")[2]) for row in rows]
     ours, others = Counter(one for one, _ in pairs), Counter(other for _, other in pairs)
     throughout, tested = Counter(other or one for one, other in pairs), Counter(one for one, other in pairs if other)

@@ -8,7 +8,7 @@ import typer
 
 from bent_beam.errors import InputError, SimulationError
 from comparison.command_line import options
-from comparison.command_line.options import check_out, emit, names_of, of_path, progress
+from comparison.command_line.options import check_out, emit, folder_for, names_of, of_path, progress
 
 section_kinds = names_of("bent_beam.section:SECTIONS")
 example_names = names_of("bent_beam.new_case:examples")
@@ -71,9 +71,7 @@ def predict(
     ] = None,
     theory_only: Annotated[bool, typer.Option("--theory-only", help="Closed forms only, without simulation.")] = False,
     assignments: options.Set = None,
-    out: Annotated[
-        Path | None, typer.Option(help="Folder for document and picture; earlier ones are replaced.")
-    ] = None,
+    out: Annotated[Path | None, folder_for("document and picture")] = None,
     fresh: options.Fresh = False,
     as_json: options.Json = False,
     quiet: options.Quiet = False,

@@ -39,6 +39,11 @@ def of_path(help: str) -> Any:
     return typer.Option("--path", help=help, autocompletion=names_of("bent_beam.method:paths"))
 
 
+def folder_for(content: str) -> Any:
+    """The option ``--out`` of a command that writes several files."""
+    return typer.Option(help=f"Folder for {content}; earlier ones are replaced.")
+
+
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON document on standard output and nothing else.")]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No progress on standard error.")]
 Verbose = Annotated[bool, typer.Option("--verbose", "-v", help="Also numbers for experts.")]

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from comparison.command_line import options
-from comparison.command_line.options import emit, end_of_rows, factors, numbers, of_path, progress
+from comparison.command_line.options import emit, end_of_rows, factors, folder_for, numbers, of_path, progress
 
 
 def theory(
@@ -76,9 +76,7 @@ def match(
     limit: Annotated[float | None, typer.Option(help="Time limit of a row, s.")] = None,
     jobs: options.ManyJobs = None,
     scheduler: options.Scheduler = None,
-    out: Annotated[
-        Path | None, typer.Option(help="Folder for the table and the plots; earlier ones are replaced.")
-    ] = None,
+    out: Annotated[Path | None, folder_for("the table and the plots")] = None,
     fresh: options.Fresh = False,
     as_json: options.Json = False,
     quiet: options.Quiet = False,

@@ -10,7 +10,7 @@ import typer
 
 from bent_beam.errors import InputError
 from comparison.command_line import options
-from comparison.command_line.options import emit, end_of_rows, of_path, progress, setting_names
+from comparison.command_line.options import emit, end_of_rows, folder_for, of_path, progress, setting_names
 
 if TYPE_CHECKING:
     from bent_beam import Case, Method
@@ -33,9 +33,7 @@ def bounce(
     ] = None,
     seed: Annotated[int | None, typer.Option(min=0, help="Seed of the ensemble. Default: 15.")] = None,
     hits: Annotated[int, typer.Option(min=1, max=20, help="Number of hits to follow.")] = 1,
-    out: Annotated[
-        Path | None, typer.Option(help="Folder for document, picture and animation; earlier ones are replaced.")
-    ] = None,
+    out: Annotated[Path | None, folder_for("document, picture and animation")] = None,
     jobs: options.Jobs = 1,
     fresh: options.Fresh = False,
     verbose: options.Verbose = False,
@@ -136,10 +134,7 @@ def sweep(
     assignments: options.Set = None,
     jobs: options.ManyJobs = None,
     scheduler: options.Scheduler = None,
-    out: Annotated[
-        Path | None,
-        typer.Option(help="Folder for the table (CSV, netCDF) and the figure; earlier ones are replaced."),
-    ] = None,
+    out: Annotated[Path | None, folder_for("the table (CSV, netCDF) and the figure")] = None,
     fresh: options.Fresh = False,
     as_json: options.Json = False,
     quiet: options.Quiet = False,

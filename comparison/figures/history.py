@@ -1,7 +1,6 @@
 """One run on one sheet (:mod:`comparison.figures.panels`) in the units of its case: a history of any kind
 (``bentbeam plot``), with its impulse beside the theory and its energies; a whole impact (``predict``, ``bounce`` with
-``--out``), with its numbers, and as an animation.
-"""
+``--out``), with its numbers, and as an animation."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path

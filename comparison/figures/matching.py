@@ -20,8 +20,7 @@ from comparison.readable import csv_text
 from comparison.rows import First, MatchRow, match_document
 from theory import contact_parameters
 
-DASHES = ("-", "--", ":", "-.")
-"""Of theory's curves, a kind for each load."""
+DASHES = ("-", "--", ":", "-.")  # of theory's curves, a kind for each load
 PLOTS = ("leading", "first-order", "work-precision", "work-precision-first-order")
 
 

@@ -15,8 +15,7 @@ from bent_beam.measure.whole_impact import WINDOW
 from comparison.figures import style
 from comparison.readable import milliseconds, unit_for
 
-Panel = Callable[[Any, ImpactHistory, float], None]
-"""Draws a run on an axis, until a time, s."""
+Panel = Callable[[Any, ImpactHistory, float], None]  # draws a run on an axis, until a time, s
 WINDOWS, FEWEST = 160, 40  # of the force: on a wall that gives way; on a rigid one, else they are ten times shorter
 SHAPES = 7
 NICE = (1.0, 2.0, 3.0, 5.0)

@@ -1,7 +1,6 @@
 """Siconos: Hermite beam elements, Moreau and Jean's time stepping, an LCP over the nodes' contacts, as in its own
 example (siconos-tutorials, ImpactingEulerBernouilliBeam). theta = 1 damps the short waves of the mesh; what else was
-tried: docs/benchmark.md. Matrices are dense.
-"""
+tried: docs/benchmark.md. Matrices are dense."""
 
 import json
 import sys

@@ -1,6 +1,5 @@
 """Chapter 2: the beam against the wall at leading order (2.6) and at first order, continuous (2.7.1) and detached
-(2.7.2).
-"""
+(2.7.2)."""
 
 from collections.abc import Sequence
 

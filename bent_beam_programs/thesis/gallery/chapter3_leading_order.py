@@ -1,6 +1,5 @@
 """Chapter 3, section 3.4: the parameters chosen, leading order matched (Tables 3.3, 3.4, Figs 3.29, 3.30), and discrete
-contact (K = 25 1/m, κ/ν = 1.25) with nodes and with middles.
-"""
+contact (K = 25 1/m, κ/ν = 1.25) with nodes and with middles."""
 
 import functools
 import math

@@ -174,8 +174,7 @@ def table_nodes(growth: float) -> np.ndarray:
 
 def count_of(curvature: float, *, square: bool = False) -> int:
     """Elements of the whole beam until τ = 0.1 by the thesis's rules (3.3.2), Δx = 2.5·10⁻³ m: a uniform zone of twice
-    the contact zone, or a square one over the contact zone.
-    """
+    the contact zone, or a square one over the contact zone."""
     given = case(curvature, 0.1)
     zone = 2.0 * float(Exact(given.impact).front(given.end_time))
     laid = square_zone(given, size_ratio=1e9) if square else GradedMesh(2.5e-3, 1.25, zone=zone)

@@ -66,8 +66,7 @@ def ball(step: float, end: float) -> tuple[np.ndarray, np.ndarray]:
 
 def predicting_ball(step: float, instants: int) -> np.ndarray:
     """Heights (m) by the thesis's algorithm (3.2): where a step of implicit Euler would end in the wall, the impact law
-    turns the velocity round, and the step is taken with it.
-    """
+    turns the velocity round, and the step is taken with it."""
     height, velocity, found = HEIGHT, 0.0, [HEIGHT]
     for _ in range(instants - 1):
         fallen = velocity - GRAVITY * step

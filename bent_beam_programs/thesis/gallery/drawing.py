@@ -110,8 +110,7 @@ def beam_panel(
     sheet: Sheet, axis: Axes, fields: ImpactFields, tau: float, limits: tuple[float, float], zoom: float | None = None
 ) -> None:
     """Free motion, fast layer and beam over ξ at one time; contact points marked on the wall. ``zoom`` : half width of
-    a picture without the fast layer.
-    """
+    a picture without the fast layer."""
     reach, front = zoom or 1.5, float(fields.half_contact_length(tau))
     half = np.unique(np.concatenate([np.linspace(0.0, reach, 121), [front]]))
     xi = np.concatenate([-half[:0:-1], half])

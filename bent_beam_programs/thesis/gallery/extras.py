@@ -1,6 +1,5 @@
 """What the thesis mentions or could not run: the uniform mesh, Δx = 10⁻⁴ m, conditioning, and Signorini's condition
-over the whole zone (4.0.6); which mass matrix its numbers ask for.
-"""
+over the whole zone (4.0.6); which mass matrix its numbers ask for."""
 
 from typing import Any
 

@@ -44,8 +44,7 @@ def infinite(impact: Impact) -> tuple[Impact, Method]:
 
 def old_settings(impact: Impact, end: float) -> Settings:
     """The thesis's, at nodes, with its Δx = 2.5·10⁻³ m = 0.00875 l*, ten times its h (2.5·10⁻⁷ s = 3.0625·10⁻⁶ t*), and
-    the lumped masses that its numbers ask for.
-    """
+    the lumped masses that its numbers ask for."""
     element, step = 0.00875 * impact.length_scale, 3.0625e-6 * impact.time_scale
     base = thesis_settings(impact, end)
     return base.replace(contact="node", element_length=element, time_step=step, mass=THESIS_MASS)

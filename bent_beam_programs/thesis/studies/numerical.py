@@ -1,6 +1,5 @@
 """Studies of numerical parameters: time step, mesh and far field; contact and mass (thesis 3.3.5, Figs 3.22–3.28) with
-their coupling c = W_{j,j±1}/W_jj (:mod:`hermite_fe.contacts`), restitution and damping.
-"""
+their coupling c = W_{j,j±1}/W_jj (:mod:`hermite_fe.contacts`), restitution and damping."""
 
 from collections.abc import Callable
 from dataclasses import replace

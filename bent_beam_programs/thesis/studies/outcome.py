@@ -146,8 +146,7 @@ def outcome_of(
     history: ImpactHistory, label: str, *, value: float | None = None, mark: str | None = None, **about: Any
 ) -> Outcome:
     """Curves and numbers of a history. The contact length of the varied settings is read as the thesis does
-    (:func:`touching`), that of a reference (``mark``) from the centroid of the reaction. ``about`` : further fields.
-    """
+    (:func:`touching`), that of a reference (``mark``) from the centroid of the reaction. ``about`` : further fields."""
     exact, found = Exact(history.impact), moments(history)
     moving = "position" in history
     half = history.positions(-1) >= 0.0
@@ -219,8 +218,7 @@ def _errors(found: Any, exact: Exact, history: ImpactHistory) -> dict[str, float
 
 def _losses(history: ImpactHistory, exact: Exact, moving: bool) -> dict[str, float | None]:
     """Losses to impacts and damping in per cent of the fast layer's energy, and strain energy over theory's; the
-    energy residual over the largest loss.
-    """
+    energy residual over the largest loss."""
     end = float(history.time[-1])
     budget = history.energy_budget()
     largest = max((abs(v) for k, v in budget.items() if k.startswith("loss_")), default=0.0)

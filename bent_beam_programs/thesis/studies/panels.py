@@ -176,8 +176,7 @@ filtered: Panel = partial(
 
 def banded(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome]) -> None:
     """Where filtered reactions are so noisy that they would hide one another: means in windows, and a band that holds
-    eight tenths of the filtered reaction.
-    """
+    eight tenths of the filtered reaction."""
     reaction(sheet, axis, outcomes)
     runs, end = _finished(outcomes), _end(outcomes)
     (st, _), (sy, _) = unit(end, "s"), unit(1.2 * float(runs[0][0].exact.side_reaction(0.02 * end)), "N")

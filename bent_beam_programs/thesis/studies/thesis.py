@@ -142,8 +142,7 @@ def varied(case: Case, base: Settings, runs: Runs, *more: Variant) -> list[Varia
 
 def references(impact: Impact, end_time: float) -> list[Variant]:
     """This project's own choices: the fixed mesh, and the infinite beam in similarity coordinates, at leading order
-    over the two decades of time that figures and fits use.
-    """
+    over the two decades of time that figures and fits use."""
     endless = SelfSimilarFE().chosen_for(impact, end_time)
     if Exact(impact).leading and endless.mesh is not None:  # more decades change nothing, and cost
         endless = dataclasses.replace(endless, mesh=dataclasses.replace(endless.mesh, decades=2.0))
