@@ -105,8 +105,7 @@ def bounce(
     if not case.damping_stated and not (impact.damping or impact.hysteretic_loss):
         return _over_ratios(case, method, progress or (lambda _: None), how | {"save": save})
     band = (RUNS if runs is None else runs, SEED if seed is None else seed) if ensemble else None
-    question = Question(impact, method, save=save, band=band)
-    made = runs_of(question, whole_reading, progress=progress, **how)
+    made = runs_of(Question(impact, method, save=save, band=band), whole_reading, progress=progress, **how)
     return Bounce(case, whole_numbers(made), made)
 
 

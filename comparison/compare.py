@@ -63,7 +63,6 @@ def _apart(a: Mapping[str, Any], b: Mapping[str, Any]) -> dict[str, Any]:
 def _gap_apart(a: ImpactHistory, b: ImpactHistory, end: float) -> float | None:
     """At ``end``, linear between the saved instants around it, which are others in either run; between the nodes of
     ``b`` by the cubics of its elements where it has slopes: elements may be long."""
-
     halved = 1 in (a.sides, b.sides)  # one of them is of the half beam alone
 
     def shape(history: ImpactHistory) -> tuple[Any, Any, Any]:

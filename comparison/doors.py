@@ -139,12 +139,7 @@ def sweep(
     unused = {} if timed else {"run": "the last separation ends a row"}
     check_effect(assignments, [path], unused, "--set")
     check_effect(vary, [path], unused, "vary:")
-    rows = run_all(
-        row_of,
-        [(varied, case, path, RunStore.usual(fresh)) for varied, case in cases],
-        jobs=jobs,
-        scheduler=scheduler,
-        progress=progress,
-        on_death=lambda i, why: Row(cases[i][0], reason=why),
-    )
+    calls = [(varied, case, path, RunStore.usual(fresh)) for varied, case in cases]
+    how: dict[str, Any] = {"jobs": jobs, "scheduler": scheduler, "progress": progress}
+    rows = run_all(row_of, calls, on_death=lambda i, why: Row(cases[i][0], reason=why), **how)
     return Swept(str(tables.get("title", "")), path, given, rows)

@@ -146,6 +146,10 @@ class PredictedCase:
                 row["reaction"] = None
         told: list[Mapping[str, Any]] = [*(self.simulated or ()), *([] if whole is None else [whole.in_si])]
         known = [one for numbers in told if (one := yields(numbers, self.case.section)) is not None]
+        of_whole: dict[str, Any] | None = None
+        if whole is not None:
+            of_whole = documents(whole.in_si, OF_WHOLE_IMPACT) | whole.hardest
+            of_whole |= {"span": list(whole.span), "over_damping": whole.over_damping, "warnings": whole.warnings}
         return document | {
             "yields": any(known) if known else document["yields"],
             "force_until": force,
@@ -156,15 +160,7 @@ class PredictedCase:
             "warnings": self.warnings,
             "agreement": self.agreement,
             "yield_stress": getattr(self.case.section, "yield_stress", None),
-            "whole_impact": None
-            if whole is None
-            else {
-                **documents(whole.in_si, OF_WHOLE_IMPACT),
-                **whole.hardest,
-                "span": list(whole.span),
-                "over_damping": whole.over_damping,
-                "warnings": whole.warnings,
-            },
+            "whole_impact": of_whole,
             "no_whole_impact": self.no_whole,
         }
 

@@ -116,8 +116,7 @@ def runs_of(
     first, others = question.run_by, question.companions()
     share = 1.0 / (1 + len(others))
     simulate = partial(question.run, first, progress=lambda part: told(share * part))
-    keeps = store is not None and store.folder is not None
-    history = simulate() if whole_history or not keeps else None
+    history = simulate() if whole_history or not (store and store.folder) else None
     run = Run.of(history, read) if history else kept(store, question.key(question.impact), first, read, simulate)
     told(share)
     calls = [(store, question, read, method, impact) for impact, method in others.values()]

@@ -72,10 +72,8 @@ class Row:
     def to_dict(self) -> dict[str, Any]:
         """JSON-ready: the same however often the sweep was interrupted."""
         names = ("varied", "kappa_over_nu", "until", "yield_stress", "reason", "refused")
-        return {name: getattr(self, name) for name in names} | {
-            **documents(self.numbers, NAMES),
-            "warnings": list(self.warnings),
-        }
+        found = {name: getattr(self, name) for name in names} | documents(self.numbers, NAMES)
+        return found | {"warnings": list(self.warnings)}
 
 
 def varied_from(text: str) -> tuple[str, list[Any]]:

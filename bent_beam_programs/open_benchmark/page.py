@@ -215,8 +215,7 @@ def _largest(rows: Sequence[Row], rule: Property) -> str:
     numbers = [abs(number) for row in chosen for number in rule.numbers(row.score) if number is not None]
     if numbers:
         return f"{max(numbers):.1e}" if any(numbers) else "0"
-    outcomes = {row.score.brief for row in chosen if not row.score.completed}
-    return " or ".join(sorted(outcomes)) or "not reported"
+    return " or ".join(sorted({row.score.brief for row in chosen if not row.score.completed})) or "not reported"
 
 
 def _converges(rows: Sequence[Row]) -> str:
@@ -244,20 +243,17 @@ def _figure(rows: Sequence[Row], measure: str, solvers: Sequence[str]) -> Figure
             seconds, errors, tops = zip(*points)
             color, style = f"C{k % 10}", "-" if k < 10 else "--"
             axis.vlines(seconds, errors, tops, color=color, lw=0.8, alpha=0.35)
-            mark = MARKS[k % len(MARKS)]
-            axis.loglog(seconds, errors, marker=mark, ms=5, lw=1.2, color=color, ls=style, label=solver)
-            for word, over in (("lifted", {"marker": mark, "mfc": "white"}), ("adhesive", {"marker": "x"})):
+            point: dict[str, Any] = {"marker": MARKS[k % len(MARKS)], "color": color}
+            axis.loglog(seconds, errors, ms=5, lw=1.2, ls=style, label=solver, **point)
+            looks = {"lifted": point | {"mfc": "white"}, "adhesive": {"marker": "x", "color": "k"}}
+            for word, look in looks.items():
                 marked = [p[:2] for row in own if word in row.score.outcome and (p := _point(row, measure))]
-                axis.loglog(
-                    *np.array(marked).reshape(-1, 2).T, ls="", ms=5, color=color if over.get("mfc") else "k", **over
-                )
+                axis.loglog(*np.array(marked).reshape(-1, 2).T, ls="", ms=5, **look)
     for (low, high), bound in ((axis.get_ylim(), axis.set_ylim), (axis.get_xlim(), axis.set_xlim)):
         bound(10.0 ** np.floor(np.log10(low)), 10.0 ** np.ceil(np.log10(high)))
     axis.xaxis.set_minor_formatter("")
-    axis.set(
-        xlabel="seconds of the time loop (of the process where not reported)",
-        ylabel=f"relative error of {MEASURES[measure]}",
-    )
+    axis.set_xlabel("seconds of the time loop (of the process where not reported)")
+    axis.set_ylabel(f"relative error of {MEASURES[measure]}")
     axis.grid(True, which="major", lw=0.4, color="0.85")
     axis.spines[["top", "right"]].set_visible(False)
     figure.legend(loc="outside lower center", ncols=3, frameon=False, fontsize=8)

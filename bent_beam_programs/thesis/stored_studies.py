@@ -112,12 +112,11 @@ def lost(name: str, reason: str) -> dict[str, Any]:
 def store_studies(*, file: Path = FILE, jobs: int = 1) -> Path:
     """Run the studies, ``jobs`` at the same time, and store them."""
     file.parent.mkdir(parents=True, exist_ok=True)
-    names = list(STUDIES)
-    calls = [(name, file.parent) for name in names]
-    notes = run_all(note_of, calls, jobs=jobs, on_death=lambda i, why: lost(names[i], why))
+    calls = [(name, file.parent) for name in STUDIES]
+    notes = run_all(note_of, calls, jobs=jobs, on_death=lambda i, why: lost(calls[i][0], why))
     made_by = "python -m bent_beam_programs.thesis.stored_studies"
-    data = {"studies": notes}
-    return stored.write(file, "parameter studies of the thesis", made_by, PACKAGES, {"cases": CASES}, data)
+    what, data = "parameter studies of the thesis", {"studies": notes}
+    return stored.write(file, what, made_by, PACKAGES, {"cases": CASES}, data)
 
 
 def main() -> None:

@@ -73,8 +73,7 @@ class Printed:
             other = f"{readable(self.consistent, 3)}: {replace(self, ours=self.consistent).verdict}"
         long = "e" in self.printed
         printed = readable(float(self.printed), digits(self.printed)) if long else self.printed.replace("-", "−")
-        cells = [self.where, self.what, printed, readable(self.ours, 5), ratio, self.verdict]
-        return [*cells, other, self.why]
+        return [self.where, self.what, printed, readable(self.ours, 5), ratio, self.verdict, other, self.why]
 
 
 def counts(rows: Sequence[Sequence[str]]) -> list[tuple[str, int, int, int, int]]:

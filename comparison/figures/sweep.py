@@ -113,8 +113,7 @@ def _map(axis: Any, found: SweepTable, name: str) -> None:
     if shown.count() and shown.max() > shown.min():
         smooth = _between(x, y, shown)
         field = axis.contourf(*smooth, LEVELS, cmap="YlGnBu", alpha=0.8)
-        lines = axis.contour(*smooth, field.levels, colors="black", linewidths=0.4)
-        axis.clabel(lines, fontsize=6.5, fmt="%g")
+        axis.clabel(axis.contour(*smooth, field.levels, colors="black", linewidths=0.4), fontsize=6.5, fmt="%g")
         axis.figure.colorbar(field, ax=axis, label=title)
         if (limit := _yield_stress(found, name)) is not None and shown.min() < 1e-6 * limit < shown.max():
             axis.contour(*smooth, [1e-6 * limit], colors=style.COLOURS["vermilion"], linewidths=1.8)

@@ -30,8 +30,7 @@ def leading_zone(sheet: Sheet) -> None:
     """No penetration over the contact zone, leading order
 
     Free motion (2.6.31) and fast layer (2.6.32) at ξ = aλ₀√τ, ν = 1, and their difference (below): where they agree,
-    the beam lies on the wall.
-    (2.6.25–26) of the thesis lack the factor r₀/π that (2.6.29) has; with it they agree.
+    the beam lies on the wall. (2.6.25–26) of the thesis lack the factor r₀/π that (2.6.29) has; with it they agree.
     """
     shown = ((0.5, 0.1), (0.5, 0.5), (0.8, 0.1), (0.8, 0.5))
     texts = [rf"$\kappa = {kappa}$, $\tau = {tau}$" for kappa, tau in shown]

@@ -204,13 +204,12 @@ def geometry(sheet: Sheet, axis: Axes, history: ImpactHistory, times: tuple[floa
 def discrete(sheet: Sheet) -> None:
     """Discrete contact
 
-    Discrete contact, κ/ν = 1.25, uniform mesh Δx = 5·10⁻² m, τ = 0.01: (a) geometry, nodes, lumped mass, drawn
-    with the elements' cubics; (b) geometry,
-    middles, consistent mass, over a longer time; (c) energy, nodes, both masses, free flight before; (d) reaction over
-    the first steps and after for several element lengths (L = 1 m), nodes, lumped mass. The contact stays at x = 0, as
-    theory says. Middles close after KΔx²/(8V₀) = 3.91·10⁻⁴ s (the thesis expects 7.85·10⁻⁴ s, joining nodes by straight
-    lines). The first impact with lumped masses takes the thesis's 10 J, ½μΔxV₀², and 1 N s, μΔxV₀, whatever h. In
-    theory this impulse vanishes as Δx → 0, and R = 2√(2/π) r₀/√τ from the start.
+    Discrete contact, κ/ν = 1.25, uniform mesh Δx = 5·10⁻² m, τ = 0.01: (a) geometry, nodes, lumped mass, drawn with the
+    elements' cubics; (b) geometry, middles, consistent mass, over a longer time; (c) energy, nodes, both masses, free
+    flight before; (d) reaction over the first steps and after for several element lengths (L = 1 m), nodes, lumped
+    mass. The contact stays at x = 0, as theory says. Middles close after KΔx²/(8V₀) = 3.91·10⁻⁴ s (the thesis expects
+    7.85·10⁻⁴ s, joining nodes by straight lines). The first impact with lumped masses takes the thesis's 10 J, ½μΔxV₀²,
+    and 1 N s, μΔxV₀, whatever h. In theory this impulse vanishes as Δx → 0, and R = 2√(2/π) r₀/√τ from the start.
     """
     middles = run("middle", ELEMENT, 50.0, LATE, 2.5e-7)
     with sheet.figure(2, 2, height=5.2) as (_, axes):

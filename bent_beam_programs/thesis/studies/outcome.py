@@ -16,6 +16,7 @@ usual one.
 """
 
 import math
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -199,11 +200,8 @@ def _errors(found: Any, exact: Exact, history: ImpactHistory) -> dict[str, float
         reaction = 100.0 * (float(total[-1]) / float(exact.impulse(end)) - 1.0)
         length = float(found.front[-1]) * history.impact.length_scale / (float(exact.front(end)) or np.nan)
     else:
-        try:
+        with suppress(ValueError):  # too little to fit
             fitted = leading_order(found)
-        except ValueError:  # too little to fit
-            pass
-        else:
             reaction = 100.0 * (fitted.r0.value / p.r0 - 1.0)
             length = fitted.lambda0.known / (float(p.lambda0) or np.nan)
     edges = np.linspace(0.5 * end, end, WINDOWS + 1)
