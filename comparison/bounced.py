@@ -1,7 +1,5 @@
 """A whole impact that was found: its numbers in SI, what a reader must know of them, document, text and picture."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -42,7 +40,7 @@ class Bounce:
     case: Case
     numbers: Mapping[str, Number | Band]
     runs: Runs
-    over: Mapping[float, Bounce] | None = None
+    over: Mapping[float, "Bounce"] | None = None
 
     @property
     def impact(self) -> Impact:

@@ -4,13 +4,11 @@ Nothing here knows a path. A method simulates; its history is reduced to moments
 λ₀, r₀, λ₁, r₁ off them; the theory is joined to the numbers afterwards.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from functools import partial
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -109,11 +107,11 @@ class _Estimates:
     loaded: Sequence[tuple[float, Moments]] = ()
     pressure: float = 0.0
 
-    def leading(self, others: Sequence[_Estimates] = ()) -> LeadingEstimate:
+    def leading(self, others: Sequence[Self] = ()) -> LeadingEstimate:
         own, companions = self.runs[0], [_moments(other.runs[0]) for other in others]
         return leading_order(_moments(own), companions=companions, unresolved=own.reading["unresolved"])
 
-    def first(self, others: Sequence[_Estimates] = ()) -> FirstOrderEstimate | None:
+    def first(self, others: Sequence[Self] = ()) -> FirstOrderEstimate | None:
         """``None`` where first order was not asked for."""
         if self.base is None:
             return None

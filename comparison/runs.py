@@ -4,13 +4,11 @@ A reading is a dictionary of plain numbers by name, and this is what a store kee
 turned into text and back.
 """
 
-from __future__ import annotations
-
 import statistics
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
-from typing import Any
+from typing import Any, Self
 
 from bent_beam import Impact, ImpactHistory, InputError, SimulationError
 from bent_beam.hysteresis import converges
@@ -44,7 +42,7 @@ class Run:
     kept: bool = False
 
     @classmethod
-    def of(cls, history: ImpactHistory, read: Reading) -> Run:
+    def of(cls, history: ImpactHistory, read: Reading) -> Self:
         return cls(read(history), [*history.warnings, *steep(history)], history.seconds, history.steps)
 
 
@@ -90,7 +88,7 @@ class Runs:
         """Of the run itself."""
         return Balance(**self.run.reading["balance"])
 
-    def part(self, of: Callable[[dict[str, Any]], dict[str, Any]]) -> Runs:
+    def part(self, of: Callable[[dict[str, Any]], dict[str, Any]]) -> Self:
         """The same runs with a part of their readings."""
         run, *others = (replace(one, reading=of(one.reading)) for one in self.every)
         return replace(self, run=run, companions=dict(zip(self.companions, others)))

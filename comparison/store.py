@@ -4,8 +4,6 @@ One JSON file a run, written beside its place and renamed into it, with a checks
 or from other versions is never read as good.
 """
 
-from __future__ import annotations
-
 import hashlib
 import inspect
 import json
@@ -19,7 +17,7 @@ from dataclasses import dataclass
 from functools import cache
 from importlib.metadata import distributions
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 from platformdirs import user_cache_path
 
@@ -63,7 +61,7 @@ class RunStore:
     folder: Path | None
 
     @classmethod
-    def usual(cls, fresh: bool = False) -> RunStore:
+    def usual(cls, fresh: bool = False) -> Self:
         """``$BENTBEAM_STORE``, or in the user's cache folder; ``fresh``: one that keeps nothing, so reads nothing."""
         cache = user_cache_path("bent-beam-impact", appauthor=False) / "runs"
         return cls(None if fresh else Path(os.environ.get("BENTBEAM_STORE") or cache))

@@ -6,8 +6,6 @@ A row is a case like any other, and its runs are kept under its own questions: a
 holds what ``predict`` gives at the end time.
 """
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from copy import deepcopy
@@ -204,7 +202,7 @@ class SweepTable:
             "kept": self.kept,
         }
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> "xarray.Dataset":
         """The numbers, ``name`` and ``name_error``, over the keys as coordinates, SI; NaN where there is none."""
         import xarray
 

@@ -145,8 +145,7 @@ def _without_praise(row: Row) -> Row:
 def drawn(names: Sequence[str], seed: int) -> list[str]:
     """Ids of drawn problems like those named; none for the ladder and the whole impacts, which are what they are."""
     kept = [problem(name) for name in names]
-    near = (_near(one, seed) for one in kept if one.is_front or one.kind.startswith("elastic"))
-    return list(dict.fromkeys(near))
+    return list(dict.fromkeys(_near(one, seed) for one in kept if one.is_front or one.kind.startswith("elastic")))
 
 
 def _near(asked: Problem, seed: int) -> str:
@@ -192,8 +191,7 @@ def declared_rows(files: Sequence[Path]) -> list[Row]:
         except ResultError as error:
             raise InputError(f"result: {error}") from None
         name, resolution = result.metadata.get("tool") or file.stem, result.metadata.get("resolution", "–")
-        row = Row(str(name)[:40], result.problem.id, str(resolution)[:20], None, score(result))
-        rows.append(_without_praise(row))
+        rows.append(_without_praise(Row(str(name)[:40], result.problem.id, str(resolution)[:20], None, score(result))))
     return rows
 
 

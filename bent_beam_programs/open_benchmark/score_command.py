@@ -1,7 +1,5 @@
 """``bentbeam score``."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -58,7 +56,7 @@ def score(
     return code
 
 
-def _text(found: Score) -> str:
+def _text(found: "Score") -> str:
     why = "" if found.completed or not found.reason else f" ({found.reason})"
     lines = [f"{found.problem}: {found.outcome}{why}"]
     for name, value in found.measured.items():

@@ -4,8 +4,6 @@ gallery is a number of the thesis and a function that draws it on a sheet (:func
 CSV columns: panel, series, x_quantity, x, y_quantity, y; the quantities are the axis labels, units included.
 """
 
-from __future__ import annotations
-
 import csv
 import io
 import re
@@ -157,8 +155,6 @@ def legend_below(fig: Any, axes: Any, columns: int, **drawn: Any) -> None:
 
 
 Draw = Callable[[Sheet], None]
-ITEMS: dict[str, Item] = {}
-"""Every figure and table by its id; filled by the modules of :mod:`bent_beam_programs.thesis.gallery`."""
 
 
 @dataclass(frozen=True)
@@ -170,6 +166,10 @@ class Item:
     caption: str
     module: str
     draw: Draw
+
+
+ITEMS: dict[str, Item] = {}
+"""Every figure and table by its id; filled by the modules of :mod:`bent_beam_programs.thesis.gallery`."""
 
 
 def item(name: str, *, beside: str = "", **parts: str) -> Callable[[Draw], Draw]:

@@ -1,7 +1,5 @@
 """The commands on whole impacts: ``bentbeam bounce``, and ``sweep``, of many cases."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -99,7 +97,7 @@ def bounce(
 
 def _asked(
     case: Path | None, kappa_over_nu: float | None, damping: float | None, paths: list[str], assignments: Sequence[str]
-) -> list[tuple[Case, Method]]:
+) -> list[tuple["Case", "Method"]]:
     """The case, or that of the two numbers, with the method of each path."""
     from bent_beam.cases import load_case
     from comparison.methods import check_effect, methods_of

@@ -8,13 +8,11 @@ bilateral start, no absorbing layer. The mass matrix is lumped, as the thesis's 
 (:data:`THESIS_MASS`), or the printed one, (3.1.8).
 """
 
-from __future__ import annotations
-
 import dataclasses
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
 import numpy as np
 
@@ -68,7 +66,7 @@ class Settings:
     mass: Mass = THESIS_MASS
     mesh: Mesh | None = None
 
-    def replace(self, **changes: Any) -> Settings:
+    def replace(self, **changes: Any) -> Self:
         return dataclasses.replace(self, **changes)
 
     def method(self) -> HermiteFE:
