@@ -93,8 +93,7 @@ def _run(
         except ValueError as error:
             raise Refused(str(error)) from None
 
-    asked = {"impact": asdict(impact), "duration": duration}
-    return kept(store, asked, method, partial(_reading, uniform), run)
+    return kept(store, {"impact": asdict(impact), "duration": duration}, method, partial(_reading, uniform), run)
 
 
 @dataclass(frozen=True)

@@ -198,8 +198,7 @@ def declared_rows(files: Sequence[Path]) -> list[Row]:
 def _with_bases(problems: Sequence[str]) -> list[str]:
     """The problems, each once, every base before the problem that needs it."""
     bases = [base for name in problems if (base := problem(name).base_id)]
-    found = dict.fromkeys([*problems, *bases])
-    return sorted(found, key=lambda name: problem(name).base_id is not None)
+    return sorted(dict.fromkeys([*problems, *bases]), key=lambda name: problem(name).base_id is not None)
 
 
 def _kept(out: Path, solver: str, name: str, resolution: str) -> Path:

@@ -53,10 +53,9 @@ def marks(labels: Iterable[str]) -> dict[str, dict[str, Any]]:
     known = {mark["label"]: mark for mark in MARKERS.values()}
     free = [c for c in SEQUENCE if c not in {mark["color"] for mark in known.values()}]
     names = list(dict.fromkeys(labels))
-    others = [label for label in names if label not in known]
     own = {
         label: {**OPEN, "color": free[i % len(free)], "marker": MARKS[i % len(MARKS)], "label": label}
-        for i, label in enumerate(others)
+        for i, label in enumerate(name for name in names if name not in known)
     }
     return {label: (known | own)[label] for label in names}
 

@@ -57,8 +57,7 @@ def first_order_zone(sheet: Sheet) -> None:
     dotted, the free motion with λ_c² not truncated; below each, their differences from the fast layer. ν = 1, χ = 0,
     ε = 0.1. In (f) ελ₁τ is a quarter of λ₀ and more: the expansion, not the solution, ends there, as the thesis says.
     """
-    loads = ((0.8, 0.0, 2.0), (0.5, 4.0, 0.0))
-    shown = [(*load, tau) for tau in (0.1, 0.5) for load in loads]
+    shown = [(*load, tau) for tau in (0.1, 0.5) for load in ((0.8, 0.0, 2.0), (0.5, 4.0, 0.0))]
     inside = np.abs(PLACES) <= 1.0
     texts = [rf"$\kappa = {k}$, $\alpha = {a:g}$, $\psi = {p:g}$, $\tau = {t}$" for k, a, p, t in shown]
     with sheet.figure(4, 2, height=6.8, texts=[*texts[:2], "", "", *texts[2:]], legend=3) as (_, axes):

@@ -122,9 +122,8 @@ def reaction_in_space_and_time(sheet: Sheet) -> None:
     steps of the front, not from behind it.
     """
     shown = {f"contact at {contact}s, {mass} mass": run(contact, mass).history for mass, contact in PAIRS}
-    cells = drawing.draw_maps(sheet, shown, 2, 5.0)
     exact = Exact(next(iter(shown.values())).impact)
-    for name, found in zip(shown, cells):
+    for name, found in zip(shown, drawing.draw_maps(sheet, shown, 2, 5.0)):
         middle, impulse = 0.5 * (found.places[1:] + found.places[:-1]), found.force * np.diff(found.times)[:, None]
         inner = middle[None, :] < 0.9 * exact.front(found.times[:-1])[:, None] - (middle[1] - middle[0])
         share = 100.0 * float(impulse[inner].sum() / impulse.sum())

@@ -213,8 +213,7 @@ def discrete(sheet: Sheet) -> None:
     """
     middles = run("middle", ELEMENT, 50.0, LATE, 2.5e-7)
     with sheet.figure(2, 2, height=5.2) as (_, axes):
-        nodes = run("node", ELEMENT, 50.0, END, STEP, THESIS_MASS)
-        geometry(sheet, axes[0, 0], nodes, (0.0, END), (-340, 30))
+        geometry(sheet, axes[0, 0], run("node", ELEMENT, 50.0, END, STEP, THESIS_MASS), (0.0, END), (-340, 30))
         geometry(sheet, axes[0, 1], middles, (0.0, 0.5 * MIDDLE, MIDDLE, LATE), (-60, 18))
         axes[0, 1].set_xlim(0, 0.11)
         lost, pushed = axes[1]
@@ -238,8 +237,7 @@ def discrete(sheet: Sheet) -> None:
         pushed.set(xlabel="$t$  (µs)", ylabel="reaction $R$  (kN)", xscale="log", yscale="log")
         pushed.set(xlim=(1e-2, 25), ylim=(1.0, 1e6))
         pushed.legend(fontsize=6.5, loc="upper right", ncols=2)
-    closed = int(np.argmax(middles.array("total_impulse") > 0.0))
-    sheet.numbers["middles close at (s)"] = float(middles.time[closed])
+    sheet.numbers["middles close at (s)"] = float(middles.time[np.argmax(middles.array("total_impulse") > 0.0)])
     for name, mass in MASSES.items():
         impulse, energy = first_impact(ELEMENT, mass)
         sheet.numbers |= {f"first impact, {name} (N s)": impulse, f"first impact, {name} (J)": energy}

@@ -48,8 +48,7 @@ def beam_at_times(
     axis.set(xlabel="$x$  (m)", ylabel="deflection $y$  (mm)", xlim=(0, edge))
     for t, colour in zip(times, style.SEQUENCE):
         k, near = int(np.abs(history.time - t).argmin()), x <= edge
-        label = name(float(history.time[k]))
-        sheet.line(axis, x[near], -1e3 * gap[k][near], series=label, color=colour, lw=0.9)
+        sheet.line(axis, x[near], -1e3 * gap[k][near], series=name(float(history.time[k])), color=colour, lw=0.9)
 
 
 def numbers_of(sheet: Sheet, outcomes: Sequence[Outcome], *names: str) -> None:

@@ -46,8 +46,7 @@ def every_step(
     model = beam_model(impact, chosen.nodes, chosen.contact, chosen.far_field, full=False, mass=chosen.mass)
     law = ContactLaw(restitution=chosen.contact.restitution)
     run = Stepper(model.system, model.displacement, model.velocity, chosen.integrator, end_time, law)
-    kept = saved_steps(run.instants, save)
-    samples, total, wanted = [], np.zeros(run.instants.size), set(kept.tolist())
+    samples, total, wanted = [], np.zeros(run.instants.size), set(saved_steps(run.instants, save).tolist())
     run.compile()
     began = clock.perf_counter()
     for k in range(total.size):

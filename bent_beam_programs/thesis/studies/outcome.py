@@ -71,8 +71,7 @@ class Steps:
 
 def scatter(time: Array, reaction: Array, exact: Array) -> float:
     """Root mean square of reaction over theory less one, in the second half of the run."""
-    late = time > 0.5 * time[-1]
-    return float(np.sqrt(np.mean((reaction / exact - 1.0)[late] ** 2)))
+    return float(np.sqrt(np.mean((reaction / exact - 1.0)[time > 0.5 * time[-1]] ** 2)))
 
 
 @dataclass(frozen=True)
@@ -132,8 +131,7 @@ class Outcome:
 
     def reaction(self, windows: int = 200) -> tuple[Array, Array]:
         """Mean reaction of one side (N) in windows even in √t, and the time (s) at which 1/√t has its mean in each."""
-        first = max(float(self.time[0]), 0.0)
-        root = np.linspace(np.sqrt(first), np.sqrt(self.time[-1]), windows + 1)
+        root = np.linspace(np.sqrt(max(float(self.time[0]), 0.0)), np.sqrt(self.time[-1]), windows + 1)
         gathered = np.interp(root**2, self.time, self.side_impulse)
         return (0.5 * (root[1:] + root[:-1])) ** 2, np.diff(gathered) / np.diff(root**2)
 

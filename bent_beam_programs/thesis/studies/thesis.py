@@ -114,8 +114,7 @@ class Variant:
 
     @property
     def about(self) -> dict[str, Any]:
-        mark = self.method.path if self.reference else None
-        return {"mark": mark, "setting": self.setting, "refine": self.refine}
+        return {"mark": self.method.path if self.reference else None, "setting": self.setting, "refine": self.refine}
 
     def lost(self, reason: str, *, refused: bool = False) -> Outcome:
         """The outcome of a run that gave none."""
