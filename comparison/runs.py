@@ -85,7 +85,6 @@ class Runs:
 
     @property
     def balance(self) -> Balance:
-        """Of the run itself."""
         return Balance(**self.run.reading["balance"])
 
     def part(self, of: Callable[[dict[str, Any]], dict[str, Any]]) -> Self:

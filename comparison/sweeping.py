@@ -160,7 +160,6 @@ def row_of(varied: dict[str, Any], case: Case | InputError, path: str, store: Ru
 
 
 def _found(case: Case, path: str, store: RunStore) -> dict[str, Any]:
-    """What runs say in a row."""
     impact, method = case.impact, case.method(path)
     if never_leaves(impact):
         runs = runs_to(case, method, (case.end_time,), store)
@@ -256,7 +255,6 @@ class SweepTable:
         return "\n".join([*lines, *(f"{text} ({self._which(names)})" for text, names in told.items())])
 
     def _which(self, names: Sequence[str]) -> str:
-        """Rows in words."""
         if 1 < len(names) == len(self.rows):
             return "all rows"
         return names[0] if len(names) == 1 else f"{len(names)} rows, the first at {names[0]}"

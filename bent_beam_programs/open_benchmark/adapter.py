@@ -60,7 +60,6 @@ class Adapter:
 
     @property
     def python(self) -> Path:
-        """The interpreter it runs with."""
         if self.debian:
             return Path("/usr/bin/python3")
         if not self.install:

@@ -74,7 +74,6 @@ class Row:
 
     @property
     def table(self) -> str:
-        """The one that it stands in."""
         return "self-declared" if self.declared_because else "run here"
 
     @property
@@ -84,7 +83,6 @@ class Row:
         return float(given) if isinstance(given, int | float) and not isinstance(given, bool) and given >= 0.0 else None
 
     def to_dict(self) -> dict[str, Any]:
-        """Ready for JSON."""
         return {
             "solver": self.solver,
             "resolution": self.resolution,

@@ -168,7 +168,6 @@ def errors_of(law: str, size: float, names: Sequence[str]) -> list[list[Any]]:
 
 
 def print_laws() -> None:
-    """The table of contact laws."""
     print("| law on | Δx |", " | ".join(f"`{name}`" for name in PROBLEMS), "|")
     print("| ---" * (2 + len(PROBLEMS)), "|")
     for size, law in product((0.04, 0.02, 0.01, 0.005), LAWS):
@@ -178,7 +177,6 @@ def print_laws() -> None:
 
 
 def print_rungs() -> None:
-    """The table of integrators on the rungs."""
     print(f"| integrator | {' | '.join(RUNGS)} |", "| --- " * (1 + len(RUNGS)) + "|", sep="\n")
     for name, scheme in INTEGRATORS.items():
         print(f"| {name} | {' | '.join(cell(scheme, rung) for rung in RUNGS.values())} |", flush=True)

@@ -183,7 +183,6 @@ class Property(NamedTuple):
     finest: bool = True
 
     def counts(self, row: Row) -> bool:
-        """Whether a row is one of these."""
         asked = problem(row.problem)
         fits = asked.kind in self.kinds and self.regime in ("", _regime(asked))
         return fits and row.resolution in (RESOLUTIONS[-1:] if self.finest else (*RESOLUTIONS, GIVEN))

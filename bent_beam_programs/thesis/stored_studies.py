@@ -74,7 +74,6 @@ SAYS = {  # what the thesis says of a study, and whether it is so, on its own ca
 
 
 def case_of(name: str) -> Case:
-    """The thesis's case that a study runs on."""
     return case_from_tables(CASES[name])
 
 

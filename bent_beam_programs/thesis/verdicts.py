@@ -56,7 +56,6 @@ class Printed:
 
     @property
     def verdict(self) -> str:
-        """One of the five classes."""
         if self.axes:
             return AXES
         if within_rounding(self.printed, self.ours):

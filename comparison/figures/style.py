@@ -174,7 +174,6 @@ def write_gif(fig: Figure, moving: Sequence[Artist], frames: Iterable[object], f
 
 
 def label_panels(*axes: Axes) -> None:
-    """(a), (b) … on all of them in turn."""
     for axis, letter in zip(axes, "abcdef"):
         panel_label(axis, f"({letter})")
 

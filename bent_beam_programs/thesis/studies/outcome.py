@@ -136,7 +136,6 @@ class Outcome:
         return (0.5 * (root[1:] + root[:-1])) ** 2, np.diff(gathered) / np.diff(root**2)
 
     def row(self) -> dict[str, Any]:
-        """JSON-ready."""
         about = {"label": self.label, "setting": self.setting or None, "refine": self.refine, "reference": self.mark}
         return {**about, "value": self.value, **self.measures, "failure": self.failure, "refused": self.refused}
 
