@@ -102,11 +102,9 @@ def runs_of(
     jobs: int = 1,
     progress: Progress | None = None,
 ) -> Runs:
-    """Run ``question`` and its companions, or find them in ``store``.
-
-    whole_history : also the history of the run itself, which is then made anew.
-    Raises ``ValueError`` for what the method refuses, :class:`bent_beam.SimulationError` where the run cannot finish.
-    """
+    """Run ``question`` and its companions, or find them in ``store``. whole_history : also the history of the run
+    itself, which is then made anew. Raises ``ValueError`` for what the method refuses,
+    :class:`bent_beam.SimulationError` where the run cannot finish."""
     if reason := question.method.refuses(question.impact):
         raise InputError(reason)
     told = progress or (lambda _: None)

@@ -249,10 +249,8 @@ class Clock:
     spent: float = 0.0
 
     def progress(self) -> Callable[[float], None]:
-        """What a run calls between its steps; raises :class:`TimeLimitError` beyond the limit.
-
-        Its time counts from the first call on: what is imported and compiled before does not.
-        """
+        """What a run calls between its steps; raises :class:`TimeLimitError` beyond the limit. Its time counts from the
+        first call on: what is imported and compiled before does not."""
         last: float | None = None
 
         def ask(_: float) -> None:

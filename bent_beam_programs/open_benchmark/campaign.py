@@ -106,10 +106,8 @@ def campaign(
     seed: int | None = None,
     progress: Callable[[int, int], None] = lambda done, total: None,
 ) -> list[Row]:
-    """Do the runs that are missing, and score all. A first-order problem brings its base along.
-
-    seed : of the drawn problems that are run besides, one like each of ``problems``; ``None``: none.
-    """
+    """Do the runs that are missing, and score all. A first-order problem brings its base along. seed : of the drawn
+    problems that are run besides, one like each of ``problems``; ``None``: none."""
     limits = limits or Limits()
     drawn_ids = _with_bases(drawn(problems, seed)) if seed is not None else []
     asked = [problem(name) for name in [*_with_bases(problems), *drawn_ids]]

@@ -225,11 +225,9 @@ def _numbers(fields: Mapping[str, Any], name: str) -> Array:
 
 
 def _nodes(fields: Mapping[str, Any], tau: Array, symmetric: bool) -> dict[str, Any]:
-    """Raw nodal histories, and the wall's impulse, its moment and its tensile part, added up from them.
-
-    A model of one half (no point at x < 0) of a symmetric problem stands for both. Tension is by how much a point
-    falls, over one of ``INTERVALS``, below what it had at both ends of the one before: a scheme may give and take back.
-    """
+    """Raw nodal histories, and the wall's impulse, its moment and its tensile part, added up from them. A model of one
+    half (no point at x < 0) of a symmetric problem stands for both. Tension is by how much a point falls, over one of
+    ``INTERVALS``, below what it had at both ends of the one before: a scheme may give and take back."""
     if not fields.keys() & {"node_x", "node_impulse"}:
         return {}
     x, impulse = (_numbers(fields, name) for name in ("node_x", "node_impulse"))

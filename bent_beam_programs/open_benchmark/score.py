@@ -23,10 +23,8 @@ __all__ = ["resolution_ignored", "score"]
 
 
 def score(result: Result, base: Result | None = None) -> Score:
-    """Score one result. ``base``: the same code's result of the problem without loads, for λ₁ and r₁.
-
-    Raises :class:`ResultError` when ``base`` does not belong to the result's problem.
-    """
+    """Score one result. ``base``: the same code's result of the problem without loads, for λ₁ and r₁. Raises
+    :class:`ResultError` when ``base`` does not belong to the result's problem."""
     asked = result.problem
     raw = result.node_impulse is not None and result.snap_gap is not None
     found = Score(asked.id, result.stated, metadata=result.metadata, raw=raw)
@@ -74,11 +72,9 @@ def _number(found: Number, exact: float | None) -> Number:
 
 
 def _moments(result: Result, *, load: float = 0.0, lambda0: float = 0.0, sign: float = 1.0) -> Moments:
-    """The concentrated part of one side's impulse and first moment, as the estimators take it.
-
-    A uniform load rests on the wall in the zone: p λ_c and p λ_c²/2 with λ_c = λ₀√τ are taken out of the rates; the
-    change of the front is of second order in ε.
-    """
+    """The concentrated part of one side's impulse and first moment, as the estimators take it. A uniform load rests on
+    the wall in the zone: p λ_c and p λ_c²/2 with λ_c = λ₀√τ are taken out of the rates; the change of the front is of
+    second order in ε."""
     tau = result.tau
     zero = np.zeros(tau.size)
     return Moments(

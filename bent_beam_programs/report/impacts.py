@@ -210,9 +210,7 @@ def reduce_history(history: ImpactHistory, shown: Shown) -> dict[str, Any]:
 
 def energies(history: ImpactHistory) -> dict[str, Array]:
     """Changes of the energies, J, in the frame of the free beam, where the wall moves at v = V₀ + a₀t and does work.
-
-    Against the frame of the wall, kinetic energy and work are greater by v∫R dt less what the free beam gains.
-    """
+    Against the frame of the wall, kinetic energy and work are greater by v∫R dt less what the free beam gains."""
     changes = {n: history.array(n) - history.array(n)[0] for n in ENERGIES if n in history}
     if "position" in history:  # a mesh that moves carries the waves alone, and is in this frame
         return changes

@@ -65,11 +65,9 @@ def write_report(
     scheduler: str | None = None,
     progress: Callable[[int, int], None] = lambda done, total: None,
 ) -> dict[str, Any]:
-    """Compute everything and write ``out/index.html``, with its rows and still pictures in ``out/data``.
-
-    Returns ``page``, ``files``, ``headline``, ``failures`` (JSON-ready) and ``rows`` (their number).
-    A row that fails is listed, not raised.
-    """
+    """Compute everything and write ``out/index.html``, with its rows and still pictures in ``out/data``. Returns
+    ``page``, ``files``, ``headline``, ``failures`` (JSON-ready) and ``rows`` (their number). A row that fails is
+    listed, not raised."""
     began = clock.perf_counter()
     asked = len(questions)
     total = asked + len(SHOWN) * len(methods) + 1
@@ -108,10 +106,8 @@ def write_report(
 
 
 def warm_up(methods: Sequence[Method]) -> None:
-    """Run each method once, coarsely, so that kernels are compiled (and cached) before anything is timed.
-
-    A method that fails here fails again in its rows, with its reason.
-    """
+    """Run each method once, coarsely, so that kernels are compiled (and cached) before anything is timed. A method that
+    fails here fails again in its rows, with its reason."""
     impact = SHOWN[0].impact
     for method in methods:
         with suppress(*ANY_FAILURE):  # whatever a method of somebody else's raises is the reason of its rows

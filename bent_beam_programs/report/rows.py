@@ -26,12 +26,9 @@ def true_minus(text: str) -> str:
 
 
 def report_questions(methods: Sequence[Method], refines: Sequence[float]) -> list[MatchQuestion]:
-    """Every row of the report, few enough for two minutes.
-
-    Leading order over κ/ν; two loads of first order at three κ/ν; convergence at κ/ν = 0.5. The longest come first, so
-    that no core idles at the end, and a method's two loads apart, so that the second finds the run without loads in the
-    store.
-    """
+    """Every row of the report, few enough for two minutes. Leading order over κ/ν; two loads of first order at three
+    κ/ν; convergence at κ/ν = 0.5. The longest come first, so that no core idles at the end, and a method's two loads
+    apart, so that the second finds the run without loads in the store."""
     return [
         *(MatchQuestion(m, LEADING[0]) for m in reversed(methods)),
         *(MatchQuestion(m, k, load) for load in FIRST for k in ALONG for m in reversed(methods)),

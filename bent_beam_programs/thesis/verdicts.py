@@ -25,10 +25,8 @@ def unit_of(printed: str) -> float:
 
 
 def within_rounding(printed: str, value: float) -> bool:
-    """Whether a value rounds to the printed digits; one half-way between two may go either way.
-
-    One below a power of ten has a finer last digit: of one digit 0.588 is 0.6, not 1.
-    """
+    """Whether a value rounds to the printed digits; one half-way between two may go either way. One below a power of
+    ten has a finer last digit: of one digit 0.588 is 0.6, not 1."""
     own = 10.0 ** (math.floor(math.log10(abs(value))) + 1 - digits(printed)) if value else math.inf
     return abs(value - float(printed)) <= (0.5 + 1e-9) * min(unit_of(printed), own)
 

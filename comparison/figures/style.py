@@ -94,10 +94,8 @@ RC: Any = {
 def figure(
     rows: int = 1, columns: int = 1, *, width: float = COLUMN, height: float | None = None, **kwargs: Any
 ) -> Iterator[tuple[Figure, Any]]:
-    """A figure in the project's style: ``with figure() as (fig, ax): …``. Sizes in inches.
-
-    Nothing of the caller's Matplotlib is changed: neither its backend nor the figures that it knows.
-    """
+    """A figure in the project's style: ``with figure() as (fig, ax): …``. Sizes in inches. Nothing of the caller's
+    Matplotlib is changed: neither its backend nor the figures that it knows."""
     with matplotlib.rc_context(RC):
         fig = Figure(figsize=(width, height or 0.75 * width / columns * rows))
         yield fig, fig.subplots(rows, columns, **kwargs)

@@ -144,11 +144,9 @@ def cell_forces(history: ImpactHistory) -> CellForces:
 
 
 def draw_maps(sheet: Sheet, histories: Mapping[str, ImpactHistory], rows: int, height: float) -> list[CellForces]:
-    """A map of each history, two in a row, its name beside the letter; returns their cells.
-
-    Reaction (N) of both sides over x and √t (so that the front is a straight line), mirrored about x = 0. The CSV has,
-    for each cell of time, place and reaction of the cells that carry any.
-    """
+    """A map of each history, two in a row, its name beside the letter; returns their cells. Reaction (N) of both sides
+    over x and √t (so that the front is a straight line), mirrored about x = 0. The CSV has, for each cell of time,
+    place and reaction of the cells that carry any."""
     cells = [cell_forces(history) for history in histories.values()]
     largest = max(float(c.force.max()) for c in cells)
     norm, line = LogNorm(largest / 10.0**DECADES, largest), plain_line("vermilion", width=0.6)

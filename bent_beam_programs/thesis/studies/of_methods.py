@@ -64,10 +64,8 @@ class MethodOnCase:
         return dict(self.method.PARTS[name])
 
     def part(self, name: str, *, filled: bool = False) -> Any:
-        """A part as the method has it; where it is left open, of the kind that is chosen for the case.
-
-        filled : with the part's own open fields chosen too. Raises :class:`NotVaried` where there is none.
-        """
+        """A part as the method has it; where it is left open, of the kind that is chosen for the case. filled : with
+        the part's own open fields chosen too. Raises :class:`NotVaried` where there is none."""
         self.kinds(name)
         own = getattr(self.method, name)
         if own is not None and not filled:
@@ -130,10 +128,8 @@ def of_kind(kind: type, part: Any) -> Any:
 def runs_of_methods(
     vary: Vary, case: Case, methods: Sequence[Method], refines: Sequence[float]
 ) -> list[Variant | Outcome]:
-    """The runs of all methods at all resolutions.
-
-    A method that the study cannot use, and one that refuses the case, are rows with the reason.
-    """
+    """The runs of all methods at all resolutions. A method that the study cannot use, and one that refuses the case,
+    are rows with the reason."""
     found: list[Variant | Outcome] = []
     for method, factor in product(methods, refines):
         asked = Variant(method.label, case.impact, case.end_time, method, refine=factor)

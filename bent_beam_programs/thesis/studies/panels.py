@@ -39,9 +39,7 @@ def unit(largest: float, name: str) -> tuple[float, str]:
 
 def _finished(outcomes: Sequence[Outcome]) -> list[tuple[Outcome, dict[str, Any]]]:
     """The finished ones with a style each: colours in turn for the varied settings, the path's marker for references.
-
-    Lines get thinner one after the other, so that those that coincide can all be seen.
-    """
+    Lines get thinner one after the other, so that those that coincide can all be seen."""
     marks = [o.mark for o in outcomes]
     lines = max(1, marks.count(None) - 1)
     found: list[dict[str, Any]] = []
