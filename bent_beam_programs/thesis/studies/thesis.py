@@ -87,11 +87,8 @@ def thesis_settings(impact: Impact, end_time: float) -> Settings:
     element = min(0.05 * impact.length_scale, impact.half_length / 60.0)
     if front > 0.0:
         element = min(element, front / 12.0)
-    return Settings(
-        element_length=element,
-        time_step=min(1e-5 * impact.time_scale, end_time / 1000.0),
-        zone=min(max(2.0 * reach, 25.0 * element), impact.half_length),
-    )
+    step, zone = min(1e-5 * impact.time_scale, end_time / 1000.0), max(2.0 * reach, 25.0 * element)
+    return Settings(element, step, zone=min(zone, impact.half_length))
 
 
 @dataclass(frozen=True)
