@@ -1,7 +1,7 @@
 """The doors for Python: what the commands of the same names answer, with the same numbers. What a command has more of,
 such as hits or other end times, stands in its driver: :mod:`comparison.bouncing`, :mod:`comparison.predicting` …"""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from copy import deepcopy
 from pathlib import Path
 from typing import Any
@@ -24,7 +24,7 @@ from comparison.readable import csv_text, write_answer
 from comparison.rows import THESIS_KAPPAS, questions
 from comparison.store import RunStore
 from comparison.sweeping import Row, SweepTable, cases_of, never_leaves, row_of, varied_from
-from comparison.workers import run_all
+from comparison.workers import Count, run_all
 
 __all__ = ["Swept", "bounce", "match", "predict", "sweep"]
 
@@ -106,7 +106,7 @@ def sweep(
     jobs: int | None = 1,
     scheduler: str | None = None,
     fresh: bool = False,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Count | None = None,
 ) -> Swept:
     """The whole impact of a case for each combination of ``vary``: key → values, or their text ("0.5:2:4").
 

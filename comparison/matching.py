@@ -36,7 +36,7 @@ from comparison.rows import (
 )  # fmt: skip
 from comparison.runs import Run, kept
 from comparison.store import RunStore
-from comparison.workers import Clock, run_all
+from comparison.workers import Clock, Count, run_all
 
 __all__ = ["CODE", "Matched", "answer", "match"]
 
@@ -252,7 +252,7 @@ def match(
     jobs: int | None = 1,
     scheduler: str | None = None,
     limit: float | None = None,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Count | None = None,
 ) -> Matched:
     """A row for each question, in their order, with ``jobs`` processes (``None``: as many as pay) or on a dask
     ``scheduler``.

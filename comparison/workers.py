@@ -24,15 +24,17 @@ PAYS = 5.0  # s of work from which on a second process pays: it takes some two t
 DIED = "the worker died: out of memory?"
 
 Done = Callable[[int, Any], None]
+Calls = Sequence[tuple[Any, ...]]  # the arguments of each
+Count = Callable[[int, int], None]  # is told how many of all are done
 
 
 def run_all(
     function: Callable[..., Any],
-    arguments: Sequence[tuple[Any, ...]],
+    arguments: Calls,
     *,
     jobs: int | None = 1,
     scheduler: str | None = None,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Count | None = None,
     on_death: Callable[[int, str], Any] | None = None,
 ) -> list[Any]:
     """``[function(*a) for a in arguments]``, in order.
@@ -92,9 +94,7 @@ def _numbered(i: int, function: Callable[..., Any], arguments: tuple[Any, ...]) 
     return i, function(*arguments)
 
 
-def _together(
-    function: Callable[..., Any], arguments: Sequence[tuple[Any, ...]], calls: Iterator[int], jobs: int, done: Done
-) -> list[int]:
+def _together(function: Callable[..., Any], arguments: Calls, calls: Iterator[int], jobs: int, done: Done) -> list[int]:
     """Call in one pool until none of ``calls`` is left or a worker dies; returns those that were under way then."""
     from concurrent.futures.process import BrokenProcessPool
     from multiprocessing import get_context
@@ -198,11 +198,7 @@ def _check_workers(client: Any, scheduler: str) -> None:
 
 
 def _on_cluster(
-    function: Callable[..., Any],
-    arguments: Sequence[tuple[Any, ...]],
-    scheduler: str,
-    done: Done,
-    died: Callable[..., None],
+    function: Callable[..., Any], arguments: Calls, scheduler: str, done: Done, died: Callable[..., None]
 ) -> None:
     """Dask asks again by itself when a worker dies. (joblib's dask backend waits for ever for a killed worker.)"""
     import asyncio  # a quarter of a second that only a cluster asks for

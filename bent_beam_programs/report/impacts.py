@@ -1,6 +1,6 @@
 """Impacts to look at: each simulated by every method, reduced to one timeline, in units of the fast layer."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, partial
 from typing import Any
@@ -19,7 +19,7 @@ from bent_beam.method import Method, chosen_for, settings_of
 from bent_beam_programs.report.rows import percent, true_minus
 from comparison.runs import kept
 from comparison.store import RunStore
-from comparison.workers import run_all
+from comparison.workers import Count, run_all
 from theory import contact_parameters
 from theory.fields import ImpactFields
 
@@ -126,12 +126,7 @@ def _attempted(shown: Shown, method: Method, store: RunStore) -> ShownImpact | s
 
 
 def show_all(
-    wanted: Sequence[Shown],
-    methods: Sequence[Method],
-    *,
-    store: RunStore,
-    jobs: int = 1,
-    progress: Callable[[int, int], None] | None = None,
+    wanted: Sequence[Shown], methods: Sequence[Method], *, store: RunStore, jobs: int = 1, progress: Count | None = None
 ) -> tuple[list[ShownImpact], list[str]]:
     """Every impact by every method, impact by impact, and a sentence for each that could not be shown."""
     calls = [(shown, method, store) for shown in wanted for method in methods]

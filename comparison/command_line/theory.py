@@ -39,12 +39,8 @@ def theory(
         from theory.wall_prediction import zone_offset
 
         force = peak_force(kappa_over_nu, wall_damping)
-        document |= {
-            "peak_force": force.value,
-            "peak_force_error": force.error,
-            "peak_force_time": force.time,
-            "zone_offset": zone_offset(kappa_over_nu),
-        }
+        document |= {"peak_force": force.value, "peak_force_error": force.error, "peak_force_time": force.time}
+        document["zone_offset"] = zone_offset(kappa_over_nu)
     width = max(14, *map(len, document))
     emit(document, as_json, lambda: "\n".join(f"{n:>{width}} = {value}" for n, value in document.items()))
 

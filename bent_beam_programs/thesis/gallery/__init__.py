@@ -11,7 +11,7 @@ One small module a theme; the items of a module share runs, so one process draws
 
 import json
 import time as clock
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from importlib import import_module
 from pathlib import Path
 from pkgutil import iter_modules
@@ -26,7 +26,7 @@ from bent_beam_programs.thesis.sheet import Item, Sheet, order
 from comparison.figures.style import FORMATS
 from comparison.readable import readable
 from comparison.store import PACKAGES
-from comparison.workers import run_all
+from comparison.workers import Count, run_all
 
 CODE = (*PACKAGES, "bent_beam_programs.thesis")
 
@@ -67,12 +67,7 @@ def _draw_group(names: Sequence[str], out: Path, formats: Sequence[str]) -> list
 
 
 def draw_all(
-    ids: Sequence[str],
-    out: Path,
-    *,
-    formats: Sequence[str] = ("png",),
-    jobs: int = 1,
-    progress: Callable[[int, int], None] | None = None,
+    ids: Sequence[str], out: Path, *, formats: Sequence[str] = ("png",), jobs: int = 1, progress: Count | None = None
 ) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
     """Draw items into ``out``; what an interrupted call has drawn is not drawn again (unless the sources changed).
 

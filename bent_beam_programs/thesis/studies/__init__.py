@@ -20,7 +20,8 @@ from bent_beam_programs.thesis.studies import conditioning, first_order_case, nu
 from bent_beam_programs.thesis.studies.base import Study, StudyResult, outcomes_of
 from bent_beam_programs.thesis.studies.of_methods import CONCLUSION, draw_methods, runs_of_methods
 from bent_beam_programs.thesis.studies.outcome import MEASURES, Outcome
-from bent_beam_programs.thesis.studies.thesis import Progress, run_variants
+from bent_beam_programs.thesis.studies.thesis import run_variants
+from comparison.workers import Count
 
 SAME = 30  # characters of a warning that tell its kind: its numbers differ from run to run
 
@@ -40,7 +41,7 @@ def run_study(
     refines: Sequence[float] = (1.0,),
     out: Path | None = None,
     jobs: int = 1,
-    progress: Progress | None = None,
+    progress: Count | None = None,
 ) -> StudyResult:
     """Run the study ``name`` on ``case``; with ``out`` its picture, data and result are written there. methods : whose
     settings are varied in place of the thesis's, each with elements and steps ``refines`` times finer. Raises

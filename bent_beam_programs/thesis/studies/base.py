@@ -10,8 +10,9 @@ from bent_beam_programs.thesis.sheet import Sheet
 from bent_beam_programs.thesis.studies.of_methods import Vary
 from bent_beam_programs.thesis.studies.outcome import MEASURES, Outcome
 from bent_beam_programs.thesis.studies.panels import draw_outcomes
-from bent_beam_programs.thesis.studies.thesis import Progress, Variant, run_variants
+from bent_beam_programs.thesis.studies.thesis import Variant, run_variants
 from comparison.readable import readable, text_table
+from comparison.workers import Count
 
 
 @dataclass(frozen=True)
@@ -71,7 +72,7 @@ class StudyResult:
         return "\n".join([f"{self.title}: {self.case}", "", table, "", self.conclusion, *notes])
 
 
-def outcomes_of(study: Study, case: Case, *, jobs: int = 1, progress: Progress | None = None) -> list[Outcome]:
+def outcomes_of(study: Study, case: Case, *, jobs: int = 1, progress: Count | None = None) -> list[Outcome]:
     """The runs of a study with the thesis's settings, with the study's own numbers among their measures."""
     runs = study.variants(case)
     return [

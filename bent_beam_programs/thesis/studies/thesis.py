@@ -10,7 +10,7 @@ bilateral start, no absorbing layer. The mass matrix is lumped, as the thesis's 
 
 import dataclasses
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, Self
 
@@ -24,13 +24,12 @@ from bent_beam.meshes import GradedMesh, Mesh
 from bent_beam.method import Method, Save, simulated
 from bent_beam_programs.thesis.studies.exact import Exact
 from bent_beam_programs.thesis.studies.outcome import MEASURES, Outcome, outcome_of, saved_times
-from comparison.workers import run_all
+from comparison.workers import Count, run_all
 from hermite_fe import CONTACTS, FAR_FIELDS, INTEGRATORS, HermiteFE
 from hermite_fe.contacts import MiddleContact
 from hermite_fe.masses import ConsistentMass, LumpedMass, Mass
 from self_similar_fe import SelfSimilarFE
 
-Progress = Callable[[int, int], None]
 CONSISTENT = ConsistentMass()  # (3.1.8)
 THESIS_MASS = LumpedMass(rotary=1.0 / 105.0)
 """Half an element at each node and the 4l²/420 that (3.1.8) has on its rotation: of the lumpings tried, the one whose
@@ -156,9 +155,7 @@ def _outcome(variant: Variant) -> Outcome:
         return variant.lost(f"no number can be estimated from this run: {error}")
 
 
-def run_variants(
-    asked: Sequence[Variant | Outcome], *, jobs: int = 1, progress: Progress | None = None
-) -> list[Outcome]:
+def run_variants(asked: Sequence[Variant | Outcome], *, jobs: int = 1, progress: Count | None = None) -> list[Outcome]:
     """Run all, on ``jobs`` processes; outcomes in order, those among them that were known before."""
     runs = [(one,) for one in asked if isinstance(one, Variant)]
     done = iter(run_all(_outcome, runs, jobs=jobs, progress=progress, on_death=lambda i, why: runs[i][0].lost(why)))
