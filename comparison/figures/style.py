@@ -140,9 +140,7 @@ def yield_line(axis: Axes, limit: float, highest: float) -> None:
         return
     axis.axhline(limit, color=COLOURS["black"], lw=0.9, ls="--")
     axis.set_ylim(top=max(axis.get_ylim()[1], 1.15 * limit))
-    axis.annotate(
-        f"yields at {limit:.4g}", (0.02, limit), xycoords=("axes fraction", "data"), va="bottom", fontsize=7.0
-    )
+    axis.annotate(f"yields at {limit:.4g}", (0.02, limit), xycoords=("axes fraction", "data"), va="bottom", fontsize=7)
 
 
 def write_gif(fig: Figure, moving: Sequence[Artist], frames: Iterable[object], file: Path, per_second: int) -> None:

@@ -38,9 +38,8 @@ def chosen(path, choice, bare, end, infinite, resolution):
     if resolution == "given" and choice == "chosen":
         method = chosen_for(dataclasses.replace(method, mesh=UniformMesh(element_length=GIVEN[0])), bare, end)
         even = {"growth": 0.0} if path == "hermite" else {}
-        return dataclasses.replace(
-            method, integrator=dataclasses.replace(method.integrator, time_step=end / GIVEN[1], **even)
-        )
+        steps = dataclasses.replace(method.integrator, time_step=end / GIVEN[1], **even)
+        return dataclasses.replace(method, integrator=steps)
     if choice == "chosen":
         method = chosen_for(method, bare, end)
         if path in STEPS:

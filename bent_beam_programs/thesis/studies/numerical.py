@@ -184,10 +184,8 @@ def damping_vary(on: MethodOnCase) -> list[Variant]:
         raise NotVaried(f"its integrator ({type(integrator).__name__}) has no damping to vary ({', '.join(DAMPS)})")
     if getattr(integrator, "beta", None) is not None:
         raise NotVaried(f"its integrator sets beta = {integrator.beta!r}, which gamma alone does not follow")
-    return [
-        on.setting(f"ρ∞ = {radius:g}", on.with_field("integrator", **{name: DAMPS[name](radius)}), radius)
-        for radius in RADII
-    ]
+    damped = {radius: on.with_field("integrator", **{name: DAMPS[name](radius)}) for radius in RADII}
+    return [on.setting(f"ρ∞ = {radius:g}", one, radius) for radius, one in damped.items()]
 
 
 TIME_STEP = Study("time-step", "time step", time_step_variants, time_step_vary)
