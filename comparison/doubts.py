@@ -7,10 +7,9 @@ from typing import Any
 
 import numpy as np
 
+from bent_beam import Impact, ImpactHistory
 from bent_beam.files import LOSSES
-from bent_beam.history import ImpactHistory
 from bent_beam.hysteresis import first_mode
-from bent_beam.impact import Impact
 from bent_beam.loads import unmodelled
 from bent_beam.measure.numbers import MISSING
 from bent_beam.section import Section

@@ -77,9 +77,8 @@ class MatchQuestion:
         return self.bare.replace(acceleration=alpha, fourth_derivative=psi, curvature_rate=chi, axial_force=axial)
 
     def __post_init__(self) -> None:
-        positive("kappa_over_nu", self.kappa_over_nu)
-        positive("refine", self.refine)
-        positive("duration", self.duration)
+        for name in ("kappa_over_nu", "refine", "duration"):
+            positive(name, getattr(self, name))
         one_of("error_bars", self.error_bars, ERROR_BARS)
         if self.wall is not None:
             positive("--wall", self.wall[0])

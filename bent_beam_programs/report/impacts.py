@@ -9,10 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
+from bent_beam import Impact, ImpactHistory
 from bent_beam.as_json import plain
 from bent_beam.errors import ANY_FAILURE
-from bent_beam.history import ImpactHistory
-from bent_beam.impact import Impact
 from bent_beam.measure.force_map import force_map
 from bent_beam.measure.moments import moments
 from bent_beam.method import Method, chosen_for, settings_of

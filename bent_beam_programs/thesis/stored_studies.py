@@ -13,9 +13,8 @@ from typing import Any
 
 from PIL import Image
 
-from bent_beam import stored
+from bent_beam import SimulationError, stored
 from bent_beam.cases import Case, case_from_tables
-from bent_beam.errors import SimulationError
 from bent_beam.files import write_atomically
 from bent_beam.versions import today
 from bent_beam_programs.thesis.studies import STUDIES, run_study

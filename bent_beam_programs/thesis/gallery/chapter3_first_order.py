@@ -6,8 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from bent_beam.history import ImpactHistory
-from bent_beam.impact import Impact
+from bent_beam import Impact, ImpactHistory
 from bent_beam_programs.thesis.gallery.drawing import beam_at_times, draw_maps, numbers_of, plain_line
 from bent_beam_programs.thesis.gallery.runs import stepped
 from bent_beam_programs.thesis.sheet import Sheet, item, items

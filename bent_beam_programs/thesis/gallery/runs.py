@@ -11,9 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from bent_beam.cases import Case
-from bent_beam.history import ImpactHistory
-from bent_beam.impact import Impact
+from bent_beam import Case, Impact, ImpactHistory
 from bent_beam.method import refined
 from bent_beam_programs.thesis.studies.outcome import Array, Outcome, Steps, outcome_of, saved_times
 from bent_beam_programs.thesis.studies.thesis import MASSES, Settings, references, thesis_settings

@@ -12,9 +12,8 @@ import json
 from collections.abc import Sequence
 from pathlib import Path
 
-from bent_beam.cases import Case
+from bent_beam import Case, Method
 from bent_beam.files import write_atomically
-from bent_beam.method import Method
 from bent_beam_programs.thesis.sheet import Sheet
 from bent_beam_programs.thesis.studies import conditioning, first_order_case, numerical, of_exudyn
 from bent_beam_programs.thesis.studies.base import Study, StudyResult, outcomes_of

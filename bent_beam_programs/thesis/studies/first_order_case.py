@@ -12,9 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from bent_beam.cases import Case
-from bent_beam.impact import Impact
-from bent_beam.method import Method
+from bent_beam import Case, Impact, Method
 from bent_beam_programs.thesis.sheet import Sheet
 from bent_beam_programs.thesis.studies.base import Study
 from bent_beam_programs.thesis.studies.exact import Exact

@@ -2,9 +2,7 @@
 
 from dataclasses import replace
 
-from bent_beam.cases import Case
-from bent_beam.impact import Impact
-from bent_beam.method import Method
+from bent_beam import Case, Impact, Method
 from bent_beam_programs.thesis.studies.base import Study
 from bent_beam_programs.thesis.studies.of_methods import MethodOnCase
 from bent_beam_programs.thesis.studies.thesis import Variant, references

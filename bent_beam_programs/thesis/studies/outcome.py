@@ -23,8 +23,7 @@ from typing import Any
 
 import numpy as np
 
-from bent_beam.history import ImpactHistory
-from bent_beam.impact import Impact
+from bent_beam import Impact, ImpactHistory
 from bent_beam.measure.estimators import leading_order
 from bent_beam.measure.moments import moments
 from bent_beam_programs.thesis.studies.exact import Array, Exact

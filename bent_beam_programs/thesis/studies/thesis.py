@@ -16,10 +16,8 @@ from typing import Any, ClassVar, Self
 
 import numpy as np
 
-from bent_beam.cases import Case
+from bent_beam import Case, Impact, ImpactHistory
 from bent_beam.errors import ANY_FAILURE, SimulationError
-from bent_beam.history import ImpactHistory
-from bent_beam.impact import Impact
 from bent_beam.meshes import GradedMesh, Mesh
 from bent_beam.method import Method, Save, simulated
 from bent_beam_programs.thesis.studies.exact import Exact
