@@ -19,8 +19,7 @@ from bent_beam_programs.report.rows import percent, true_minus
 from comparison.runs import kept
 from comparison.store import RunStore
 from comparison.workers import Count, run_all
-from theory import contact_parameters
-from theory.fields import ImpactFields
+from theory import ImpactFields, contact_parameters
 
 Array = NDArray[np.float64]
 FRAMES = 32

@@ -18,7 +18,6 @@ from bent_beam_programs.thesis.studies.thesis import MASSES, Settings, reference
 from hermite_fe import HermiteFE, resolution
 from hermite_fe.constraints import ContactLaw
 from hermite_fe.model import beam_model
-from hermite_fe.resolution import Composition
 from hermite_fe.run import Stepper, saved_steps, trajectory_of
 from hermite_fe.simulate import history_of, settings_of_run
 
@@ -38,7 +37,7 @@ def every_step(
     """Run to ``end_time``, s, step by step, on half the beam: its history at the instants ``save``, s, and all steps.
     Raises ``ArithmeticError`` for a step without a solution."""
     parts = {name: getattr(method, name) for name in ("mesh", "integrator", "contact", "far_field", "mass")}
-    chosen = resolution.choose(impact, end_time, Composition(**parts))
+    chosen = resolution.choose(impact, end_time, resolution.Composition(**parts))
     model = beam_model(impact, chosen.nodes, chosen.contact, chosen.far_field, full=False, mass=chosen.mass)
     law = ContactLaw(restitution=chosen.contact.restitution)
     run = Stepper(model.system, model.displacement, model.velocity, chosen.integrator, end_time, law)

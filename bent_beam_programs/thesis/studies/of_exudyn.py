@@ -6,8 +6,7 @@ from bent_beam import Case, Impact, Method
 from bent_beam_programs.thesis.studies.base import Study
 from bent_beam_programs.thesis.studies.of_methods import MethodOnCase
 from bent_beam_programs.thesis.studies.thesis import Variant, references
-from exudyn_models import CONTACTS, ELEMENTS, INTEGRATORS, ExudynModel
-from exudyn_models.geometry import GEOMETRIES
+from exudyn_models import CONTACTS, ELEMENTS, GEOMETRIES, INTEGRATORS, ExudynModel
 
 STIFFNESS, DAMPING, RADIUS = 10.0, 3.0, 0.5  # penalty C EI/Δx⁴ and D √(EIμ)/Δx², ρ∞
 STEP = 5e-3  # h/t
