@@ -153,11 +153,8 @@ def _lost(result: Result, of: str, series: Array, deficit: Callable[..., Array],
 
 
 def _penetration(result: Result, _: float = 0.0) -> Seen:
-    found = [(float(-gap.min()) / when, x[int(gap.argmin())], when) for when, x, gap in result.snapshots()]
-    if not found:
-        return None
-    deepest, x, when = max(found)
-    return max(deepest, 0.0), _at(x, when)
+    deep = [(float(-gap.min()) / when, _at(x[int(gap.argmin())], when)) for when, x, gap in result.snapshots()]
+    return max([(max(figure, 0.0), where) for figure, where in deep], default=None)
 
 
 def _lift(result: Result, lambda0: float) -> Seen:

@@ -6,12 +6,12 @@ from functools import cache, partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from bent_beam import Impact, ImpactHistory
 from bent_beam.as_json import plain
 from bent_beam.errors import ANY_FAILURE
+from bent_beam.history import Array
 from bent_beam.measure.force_map import force_map
 from bent_beam.measure.moments import moments
 from bent_beam.method import Method, chosen_for, settings_of
@@ -21,7 +21,6 @@ from comparison.store import RunStore
 from comparison.workers import Count, run_all
 from theory import ImpactFields, contact_parameters
 
-Array = NDArray[np.float64]
 FRAMES = 32
 POINTS = 91
 BINS = 60
