@@ -108,8 +108,7 @@ class Adapter:
 
 
 def shipped_adapters() -> dict[str, Adapter]:
-    with open(ADAPTERS / "adapters.toml", "rb") as stream:
-        tables = tomllib.load(stream)
+    tables = tomllib.loads((ADAPTERS / "adapters.toml").read_text(encoding="utf-8"))
     found = {}
     for name, table in tables.items():
         table = SHIPPED | tables.get(table.get("environment"), {}) | table

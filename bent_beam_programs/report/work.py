@@ -71,9 +71,8 @@ def main(names: Sequence[str]) -> None:
     """Measure what these names say (none: everything) and write rows and pictures to ``stored/``. Raises
     ``SystemExit`` for a name that no measurement has."""
     known = {measurement.name: measurement for measurement in MEASUREMENTS}
-    for name in names:
-        if name not in known:
-            raise SystemExit(f"{name} is not a measurement (known: {', '.join(known)})")
+    if unknown := [name for name in names if name not in known]:
+        raise SystemExit(f"{unknown[0]} is not a measurement (known: {', '.join(known)})")
     for one in [known[name] for name in dict.fromkeys(names or known)]:
         methods = methods_from_file(*(LISTS / file for file in one.methods))
         asked = questions(methods, [KAPPA], one.firsts, one.refines)
