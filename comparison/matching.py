@@ -254,8 +254,7 @@ def match(
     limit: float | None = None,
     progress: Count | None = None,
 ) -> Matched:
-    """A row for each question, in their order, with ``jobs`` processes (``None``: as many as pay) or on a dask
-    ``scheduler``.
+    """A row for each question, in order, with ``jobs`` processes (``None``: as many as pay) or on a dask ``scheduler``.
 
     limit : seconds that one row may take (``None``: no limit); one that takes longer is a failure.
     The rows are the same, bit for bit, for any number of jobs. ``progress(done, total)`` is called after each.

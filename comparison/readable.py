@@ -104,8 +104,7 @@ def number_from(found: dict[str, Any] | None) -> Number | Band:
 
 
 def largest_of(of_section: Any) -> tuple[str, str, str]:
-    """Name, title and unit of the largest load on a beam: its stress, or where no section is known (``None``) its
-    moment."""
+    """Name, title and unit of the largest load on a beam: its stress, or without a section (``None``) its moment."""
     return ("peak_moment", "bending moment", "N m") if of_section is None else ("peak_stress", "stress", "Pa")
 
 

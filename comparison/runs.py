@@ -1,7 +1,6 @@
 """Runs of a question about one beam, reduced to readings, kept, and made into numbers with bars.
 
-A reading is a dictionary of plain numbers by name, and this is what a store keeps of a run. Without a store nothing is
-turned into text and back.
+A reading is a dictionary of plain numbers by name: what a store keeps of a run. Without one nothing becomes text.
 """
 
 import statistics

@@ -166,8 +166,7 @@ CODE = (".py", ".so", ".pyd")
 
 def behind(program: Path) -> list[str]:
     """What a Python program may depend on: the versions of all that is installed, and the digest of each other module
-    or package, beside it or elsewhere on the path, that it or these import. What is imported by a computed name is not
-    seen."""
+    or package, beside it or elsewhere on the path, that it or these import. Computed names are not seen."""
     waiting, seen, places = [program], {"__main__", *PACKAGES, *sys.stdlib_module_names}, installed()
     found = {f"{one.name} {one.version}" for one in distributions()}
     while waiting:

@@ -1,8 +1,7 @@
 """The command line.
 
 Linear algebra gets one thread, unless the user says otherwise: matrices are small, and where two processes share two
-cores, a second thread in each makes both a third to two thirds slower. This stands here because NumPy must not be
-imported before.
+cores, a second thread in each makes both a third to two thirds slower. Here, before NumPy is imported.
 """
 
 import os

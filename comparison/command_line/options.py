@@ -86,8 +86,7 @@ Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace existing f
 
 
 def end_of_rows(rows: Sequence[Any]) -> None:
-    """A line on standard error for each row that failed unexpectedly; leave with exit code 3 where one did, 2 where
-    input refused every row."""
+    """A line on standard error for each row that failed unexpectedly; exit code 3 for one, 2 where all were refused."""
     from comparison.rows import failures
 
     lost = failures(rows)
@@ -148,8 +147,7 @@ def printable(text: str) -> str:
 
 
 def check_out(out: Path | None, overwrite: bool, suffix: str = "") -> None:
-    """``InputError`` when the file cannot be written, is there already, or ends in another suffix than what it holds
-    has (``""``: any)."""
+    """``InputError`` when the file cannot be written, exists, or has another suffix than ``suffix`` (``""``: any)."""
     from comparison.store import check_writable
 
     if out is None and overwrite:

@@ -25,8 +25,7 @@ PLOTS = ("leading", "first-order", "work-precision", "work-precision-first-order
 
 
 def write_match(rows: Sequence[MatchRow], out: Path) -> list[Path]:
-    """``match.json``, ``match.csv`` and the plots that the rows have data for, in ``out``; returns the files. Plots of
-    earlier rows do not stay."""
+    """``match.json``, ``match.csv`` and the plots of these rows, no earlier ones, in ``out``; returns the files."""
     files = [out / "match.json", out / "match.csv"]
     write_atomically(files[0], json_text(match_document(rows), indent=1) + "\n")
     write_atomically(files[1], csv_text([row.to_dict() for row in rows]))

@@ -1,5 +1,4 @@
-"""Every figure and table of the thesis by its number, drawn from this project's own computations, each with its data
-as CSV.
+"""Every figure and table of the thesis by its number, drawn from this project's own computations, with its data as CSV.
 
     from pathlib import Path
     from bent_beam_programs.thesis.gallery import draw_all

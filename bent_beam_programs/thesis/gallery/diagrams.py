@@ -1,5 +1,4 @@
-"""The thesis's sketches, drawn clean: the problem (2.1), kinds of contact (2.4–2.6), statics (3.1, 3.2, 3.4), nodes
-and middles (3.22)."""
+"""Sketches of the thesis: the problem (2.1), contact (2.4–2.6), statics (3.1, 3.2, 3.4), nodes and middles (3.22)."""
 
 from typing import Any
 

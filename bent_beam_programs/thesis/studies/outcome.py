@@ -11,8 +11,7 @@ The reaction of every step is filtered as in the thesis (3.3.1, 3.3.5):
     R_k = ΔI_k/h of one side, then Matlab's filtfilt with a filter of order 1 and the cut-off 0.04
 
 The cut-off is a share of half the sampling rate, 1/(2h): the filter smooths over a number of steps, 1/(0.04 π) ≈ 8 each
-way, and the time is proportional to h. The text gives the order and the cut-off; we take Butterworth's filter, the
-usual one.
+way, and the time is proportional to h. The text gives the order and the cut-off; we take Butterworth's, the usual one.
 """
 
 import math

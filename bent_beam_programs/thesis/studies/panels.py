@@ -1,7 +1,6 @@
 """Panels that compare runs of one impact with theory: geometry, contact length, reaction, energies, differences.
 
-Varied settings are thin coloured lines, references the markers of their path, theory is the black line. The wall is
-below.
+Varied settings are thin coloured lines, references the markers of their path, theory is black. The wall is below.
 """
 
 import math
