@@ -140,6 +140,12 @@ def sweep(
     check_effect(assignments, [path], unused, "--set")
     check_effect(vary, [path], unused, "vary:")
     calls = [(varied, case, path, RunStore.usual(fresh)) for varied, case in cases]
-    how: dict[str, Any] = {"jobs": jobs, "scheduler": scheduler, "progress": progress}
-    rows = run_all(row_of, calls, on_death=lambda i, why: Row(cases[i][0], reason=why), **how)
+    rows = run_all(
+        row_of,
+        calls,
+        jobs=jobs,
+        scheduler=scheduler,
+        progress=progress,
+        on_death=lambda i, why: Row(cases[i][0], reason=why),
+    )
     return Swept(str(tables.get("title", "")), path, given, rows)

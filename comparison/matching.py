@@ -269,5 +269,12 @@ def match(
     if limit is not None:
         positive("limit", limit)
     calls = [(question, store or RunStore(None), limit) for question in asked]
-    how: dict[str, Any] = {"jobs": jobs, "scheduler": scheduler, "progress": progress}
-    return Matched(run_all(_attempt, calls, on_death=lambda i, why: lost_row(asked[i], why), **how))
+    rows = run_all(
+        _attempt,
+        calls,
+        jobs=jobs,
+        scheduler=scheduler,
+        progress=progress,
+        on_death=lambda i, why: lost_row(asked[i], why),
+    )
+    return Matched(rows)

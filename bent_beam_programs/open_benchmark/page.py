@@ -146,8 +146,9 @@ def write_page(
     solvers = list(dict.fromkeys([*(a.name for a in adapters), *(row.solver for row in rows)]))
     tables = {name: [row for row in rows if row.table == name] for name in ("run here", "self-declared")}
     places = {name: name.replace(" ", "-") for name in tables}
-    rules: dict[str, Any] = {"trim_blocks": True, "lstrip_blocks": True}
-    loader = jinja2.Environment(loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, **rules)
+    loader = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True, lstrip_blocks=True
+    )
     html = loader.get_template("benchmark.html.j2").render(
         tables={
             table: [

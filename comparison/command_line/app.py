@@ -14,7 +14,7 @@ import warnings
 from collections.abc import Sequence
 from functools import cache
 from importlib import metadata
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
@@ -40,7 +40,9 @@ app = typer.Typer(
 )
 
 # Typer hides its copy of click, whose base class of usage errors this is.
-USAGE_ERRORS: Any = tuple(kind for kind in typer.BadParameter.__mro__ if kind.__name__ == "ClickException")
+USAGE_ERRORS: tuple[type[Exception], ...] = tuple(
+    kind for kind in typer.BadParameter.__mro__ if kind.__name__ == "ClickException"
+)
 
 
 @app.callback(invoke_without_command=True)
@@ -126,7 +128,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
             raise KeyboardInterrupt
         return int(code or 0)
     except USAGE_ERRORS as error:
-        return _refuse(error.format_message(), 2)
+        return _refuse(error.format_message(), 2)  # type: ignore[attr-defined]
     except SimulationError as error:
         return _refuse(str(error), 3)
     except BrokenPipeError:
