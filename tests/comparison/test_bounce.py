@@ -15,11 +15,10 @@ from bent_beam import Impact, ImpactHistory, load_case
 from bent_beam.measure.numbers import Band
 from bent_beam.measure.whole_impact import whole_impact
 from bent_beam.meshes import UniformMesh
-from bent_beam.method import LONGEST_OF_WALL, separation_times, simulate_to_separation, time_on_wall
+from bent_beam.method import separation_times, simulate_to_separation, time_on_wall
 from comparison.bouncing import bounce, case_of, follow_hits, problem
 from comparison.questions import Question
 from comparison.store import RunStore
-from comparison.texts import run_text
 from exudyn_models import ExudynModel
 from hermite_fe import HermiteFE
 from hermite_fe.contacts import MiddleContact, NodeContact
@@ -35,9 +34,6 @@ def test_error_bars_of_a_bounce_hold_the_converged_value(path, elements, widest)
     restitution = found.numbers["restitution"]
     assert set(restitution.parts) == {*found.runs.companions, "saved_instants"}
     assert restitution.bar == sum(restitution.parts.values())
-    last, unit = found.numbers["last_contact"], found.impact.slow_time_scale
-    apart = np.diff(found.history.time)[np.searchsorted(found.history.time, last.known * unit) - 1] / unit
-    assert last.parts["saved_instants"] == pytest.approx(0.5 * apart)  # it lies between two of them
     assert abs(restitution.value - 0.33636) <= restitution.bar < widest
 
 
@@ -48,11 +44,9 @@ def test_a_bounce_off_a_wall_that_gives_way_has_its_largest_force_and_gives_its_
     assert found.numbers["restitution"].known > 0.34  # more than off a rigid wall, whose impacts lose 1 − e²
     budget = found.history.energy_budget()
     assert budget["contact_energy"] == budget["loss_impact"] == 0.0 and budget["loss_material"] > 0.0
-    titles = {line.partition("  ")[0]: line for line in str(found).splitlines()}
-    told = titles["energy dissipated"].removeprefix("energy dissipated").split("%")[0]
-    assert told.strip() == str(found.numbers["dissipated"].scaled(100.0))
-    asked = {"coefficient of restitution", "impulse", "last contact", "largest force on the wall", "energy dissipated"}
-    assert asked <= titles.keys() and not any("largest impulse within" in title for title in titles)
+    said = " ".join(str(found).split())
+    assert f"energy dissipated {found.numbers['dissipated'].scaled(100.0)} %" in said
+    assert "largest force on the wall" in said and "largest impulse within" not in said
 
 
 def test_without_damping_a_soft_wall_leaves_numbers_and_a_stiff_one_a_band() -> None:
@@ -111,8 +105,6 @@ def test_a_run_until_separation_ends_off_the_wall_on_either_path(path, tmp_path)
     assert history.array("gap")[-1].min() > 0.0 and found["hits"] is None
     assert found["time"] == history.time[-1] < 3.0 * history.impact.slow_time_scale
     assert abs(found["energy"]["defect"]) < 1e-5 * found["energy"]["initial"]
-    mass = history.impact.mass_per_length * history.impact.length
-    assert 1.1 < found["total_impulse"]["value"] / (mass * history.impact.velocity) < 2.0
     largest = np.argmax(np.abs(history.array("largest_moment")))
     assert found["peak_moment_time"] == pytest.approx(history.time[largest], rel=0.02)
     for kind in ("kinetic", "strain"):
@@ -126,26 +118,19 @@ def test_a_run_until_separation_ends_off_the_wall_on_either_path(path, tmp_path)
     found = answered(*asked, "--set", "run.end_time=0.04", "--save", "1000")
     assert [hit["wall"] for hit in found["hits"][:2]] == ["front", "opposite"]
     assert all(hit["impulse"] > 0.0 and hit["lost"] > 0.0 for hit in found["hits"][:2])
-    heading = next(line for line in run_text(found).splitlines() if line.startswith("hit "))
-    assert all(word in heading for word in ("wall", "V before", "lost")) and "restitution" not in heading
     assert "wall.opposite" in refused(*asked, "--until", "separation")  # no separation is the last
 
 
 def test_the_command_gives_numbers_with_bars_figures_and_the_stress_of_the_largest_moment(tmp_path, monkeypatch):
     monkeypatch.setattr("comparison.figures.history.FRAMES", 2)
     out = tmp_path / "out"
-    twice = ("--set", "impact.velocity=2.0")
-    file = rod(tmp_path, element=0.1)
-    found = answered("bounce", file, *twice, "--path", "hermite", "--path", "exudyn", "--hits", 3, "--out", out)
+    words = ("--set", "impact.velocity=2.0", "--path", "hermite", "--path", "exudyn", "--hits", 3, "--out", out)
+    found = answered("bounce", rod(tmp_path, element=0.1), *words)
     assert {file.name for file in out.iterdir()} == {"bounce.json", "bounce.png", "bounce.gif"}
     assert [one["path"] for one in found["paths"]] == ["hermite", "exudyn"]
     assert json.loads((out / "bounce.json").read_text()) == {n: v for n, v in found.items() if n != "files"}
-    assert set(found["energy"]) == {"translation", "vibration", "dissipated"}
-    assert {"restitution", "impulse", "last_contact", "separations", "peak_moment", "midspan_moment"} <= set(found)
     assert 0.0 < found["restitution"]["value"] < 1.0 and found["left"]
-    longest = 1e3 * LONGEST_OF_WALL * load_case(file).impact.slow_time_scale
     assert len(found["hits"]) == 1 and found["warnings"][-1].startswith("1 of 3 hits: then the beam is off for good")
-    assert found["warnings"][-1].endswith(f"or is not back by {longest:.3g} ms")
     momentum, modulus = 7850.0 * math.pi * 0.01**2 * 2.0, math.pi * 0.02**3 / 32.0
     impulse, restitution = found["si"]["impulse"]["value"], found["restitution"]["value"]
     assert impulse == pytest.approx(momentum * (1.0 + restitution), rel=1e-6)
@@ -164,7 +149,7 @@ def test_the_runs_of_a_band_are_coarser_of_many_sizes_and_of_the_contact_and_int
 
 def test_few_saved_instants_hold_the_time_that_is_asked_for() -> None:
     for save in (8, 10, 21, 200):
-        question = Question(Impact.whole_beam(2.0, relative_damping=1e-2), COARSE, 0.05, save)
+        question = Question(problem(2.0, 1e-2), COARSE, 0.05, save)
         history = question.run(question.run_by)
         assert np.abs(history.time - 0.05).min() < 5e-4 and history.time[-1] == pytest.approx(0.055, abs=5e-4)
 

@@ -1,7 +1,5 @@
 """Who extends the project, or looks for a key, is told in one sentence what is wrong."""
 
-from dataclasses import dataclass
-
 import numpy as np
 import pytest
 from called import answered, command, refused
@@ -16,26 +14,22 @@ from bent_beam.method import method_from_tables
 from comparison import bounce, match, predict, sweep
 from exudyn_models import ExudynModel
 from hermite_fe import HermiteFE
-from hermite_fe.contacts import Contact, NodeContact, element_rows
+from hermite_fe.contacts import NodeContact, element_rows
 from hermite_fe.integrators import MoreauJean
 
 IMPACT, TUBE = Impact.dimensionless(0.5, length=20.0), EXAMPLES / "tube.toml"
 
 
-@dataclass(frozen=True)
-class Light(Contact):
+class Light(NodeContact):
     """Weights that do not add up to one."""
 
     def rows(self, beam, facing, *, full):
         return element_rows(beam, facing, np.tile([0.4, 0.0, 0.4, 0.0], (beam.lengths.size, 1)), full=full)
 
 
-@dataclass(frozen=True)
 class Mute(MoreauJean):
-    """Takes no step and says nothing."""
-
     def advance(self, *_):
-        return None
+        """Takes no step and says nothing."""
 
 
 @pytest.mark.parametrize(
@@ -48,10 +42,7 @@ class Mute(MoreauJean):
         (lambda: exudyn_models.simulate(3), r"impact must be a bent_beam.Impact, .*\(got 3\)"),
         (lambda: exudyn_models.build(TUBE), "impact must be a bent_beam.Impact"),
         (lambda: method_from_tables("exudyn", {"integrator": {"rho": 0.9}}), "integrator.rho is not a known setting"),
-        (
-            lambda: Impact.whole_beam(0.5, shear_ratio=0.3),
-            r"shear_ratio has no effect without shear_length \(got 0.3\)",
-        ),
+        (lambda: Impact.whole_beam(0.5, shear_ratio=0.3), r"shear_ratio has no effect without .*\(got 0.3\)"),
         (lambda: ExudynModel(mesh=3), r"mesh must be an instance of Mesh \(got 3\)"),
         (lambda: HermiteFE(contact=Light()).simulate(IMPACT, end_time=0.01), r"weights .* add up to one .*\(got 0.8\)"),
         (lambda: HermiteFE(integrator=Mute()).simulate(IMPACT, end_time=0.01), "Mute.advance must return .*got None"),
