@@ -46,8 +46,6 @@ def test_both_paths_say_what_theory_says_and_their_stored_runs_are_drawn_and_com
     found = answered("compare", *files)
     assert found["same_impact"] and found["paths"] == ["hermite", "exudyn"]
     assert max(found["largest_difference"][name] for name in ("total_impulse", "gap")) < 0.01  # two codes, one impact
-    assert all(one != other for one, other in found["settings"].values())
-    assert found["settings"]["far_field"][1] is found["settings"]["geometry"][0] is None  # one path alone has it
     end = found["end"] | {"time": [0.002, 0.004], "peak_moment": [120.0, 150.0]}
     told = " ".join(comparison_text(found | {"end": end}, "a", "b").split())
     assert "end of the run 2 4 ms" in told and "peak moment 0.12 0.15 kN m" in told
@@ -70,16 +68,13 @@ def test_a_match_whose_rows_are_all_refused_is_bad_input_and_still_a_document(ca
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["simulate", K10, "--path", "abaqus"], "path"),
         (["simulate", K10, "--set", "hermite.contact.kind=nod"], "did you mean node?"),
-        (["simulate", K10, "--set", "nonsense"], "--set"),
         (["match", "--first-order", "1,2"], "alpha,psi,chi"),
         (["match", "--refine", "one"], "--refine"),
         (["match", "--path", "exudyn", "--set", "hermite.mass.kind=lumped"], "not a path asked for"),
         (["match", "--kappa-over-nu", "0"], "kappa_over_nu"),
         (["bounce"], "--kappa-over-nu"),
         (["bounce", "--kappa-over-nu", "2"], "--damping"),
-        (["bounce", "--kappa-over-nu", "2", "--damping", "-1"], "damping"),
         (["study", "colour", K10], "colour"),
         (["gallery", "fig-9.9"], "fig-9.9"),
         # what would have no effect
@@ -119,11 +114,6 @@ def test_a_match_whose_rows_are_all_refused_is_bad_input_and_still_a_document(ca
 )
 def test_bad_input_is_one_line_and_exit_2(arguments, message):
     assert message in refused(*arguments)
-
-
-def test_the_beam_of_two_numbers_is_told_to_be_no_real_one():
-    code, out, _ = command("bounce", "--kappa-over-nu", 2, "--damping", 0.1, "--set", "hermite.refine=0.1", "--quiet")
-    assert code == 0 and "L/2 = EI = mu = V0 = 1" in out
 
 
 def test_a_solver_that_cannot_finish_is_exit_3_with_a_partial_history(tmp_path, monkeypatch):

@@ -1,6 +1,5 @@
 """``bentbeam predict``: theory beside a simulation of the whole beam, and the whole impact."""
 
-import re
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -11,7 +10,7 @@ from here import CASES
 from histories import history_of, rod
 
 from bent_beam import Impact
-from bent_beam.cases import case_from_tables, load_case
+from bent_beam.cases import load_case
 from bent_beam.hysteresis import first_mode
 from bent_beam.measure.numbers import FACTOR, Number
 from bent_beam.meshes import UniformMesh
@@ -48,7 +47,6 @@ def test_theory_and_simulation_agree_before_reflections(kappa, damping, load, ra
         assert found["force_until"] < 1e-3 and early["reaction"] is late["reaction"] is None
     else:
         assert agrees(early, "reaction") and agrees(late, "reaction")
-    assert all(set(row["simulation"]) == set(COMPARED) - {"peak_stress"} for row in found["times"])
     assert found["agreement"]["from"] < 6e-4 and 1.9e-3 < found["agreement"]["until"] <= 4e-3
     assert told == sorted(told) and told[-1] == pytest.approx(1.0)
 
@@ -89,9 +87,11 @@ def test_a_rod_under_its_weight_leaves_with_what_is_known_of_it(tmp_path) -> Non
     wall = {"peak_force": 47.2, "peak_force_time": 1e-3, "half_contact_length": 0.1, "pressure": 900.0}
     force = {"peak_force": {"value": 47.2, "error": 0.2}, "peak_force_time": 1e-3, "peak_force_place": 0.25}
     document |= {"wall": wall | {"penetration": None, "spoiled_by": None}}
-    text = prediction_text(document | {"whole_impact": document["whole_impact"] | force})
-    assert "beam): 47.2 N at" in text and "pressure 0.9 kN/m" in text and "impact: 47.2 ± 0.2 N." in text
-    assert "acts at about 1 ms, on average about 0.25 m" in text
+    deep = {"wall": document["wall"] | {"penetration": 2e-3}, "whole_impact": document["whole_impact"] | force}
+    text = prediction_text(document | deep)
+    assert "beam): 47.2 N at 1 ms, over a zone of ± 0.1 m" in text and "penetration 2 mm" in text
+    assert "pressure 0.9 kN/m" in text and "damping ratio: 39.69 or 56.13 N" in text  # F ~ k^¼
+    assert "impact: 47.2 ± 0.2 N." in text and "acts at about 1 ms, on average about 0.25 m" in text
     push = {"push": {"value": 0.5, "error": 0.2}, "push_window": 2e-3, "push_time": 3e-3}
     over = {"over_damping": [{"damping_ratio": 0.02, "peak_stress": largest}]}
     whole = document["whole_impact"] | push | over | {"peak_force": None, "peak_force_time": None}
@@ -129,29 +129,27 @@ def test_a_gate_that_touches_all_at_once_mistaken_units_and_a_hole_that_bends_on
     gate = Impact(4.0, 1.0, 2.0, 0.0, 1.0, damping=1e-3, left_end="hinged")
     assert gate.off_centre and "its rebound is that of the contact law" in doubts(gate, None)[0]
     assert doubts(gate.replace(wall_stiffness=1e3), None) == []
-    steel = {"wall_thickness": 0.01, "youngs_modulus": 206e9, "density": 7850.0}
-    beam = {"beam": {"length": 3.0, "curvature": 0.01}, "impact": {"velocity": 1.0}}
 
-    def said(**change: float) -> str:
-        force, falls = ({name: change.pop(name, 0.0)} for name in ("axial_force", "gravity"))
-        section = {"kind": "pipe", "outer_diameter": 0.1, **steel, **change}
-        case = case_from_tables({"beam": beam["beam"] | force, "impact": beam["impact"] | falls, "section": section})
+    def said(**change: float | str) -> str:
+        """Of an aluminium tube, 3 m, that falls."""
+        tables = {"axial_force": "beam", "tension_direction": "beam", "gravity": "impact"}
+        assignments = [f"{tables.get(key, 'section')}.{key}={value}" for key, value in change.items()]
+        case = load_case(CASES / "tube.toml", assignments)
         return " ".join(doubts(case.impact, case.section))
 
-    assert said() == "" and "are the sizes of the section in m?" in said(outer_diameter=1.0)
-    assert "radii of gyration" in said(outer_diameter=1.0, added_mass=5e4), "what moves along makes no beam slender"
-    assert "youngs_modulus = 206 Pa" in said(youngs_modulus=206.0) and "is it in kg/m³" in said(density=2.7)
-    assert "speed of sound of 5.12 m/s" in said(youngs_modulus=206e3) and "1.62e+05 m/s" in said(density=7.85)
+    assert said() == "" and "are the sizes of the section in m?" in said(outer_diameter=0.7)
+    assert "radii of gyration" in said(outer_diameter=0.7, added_mass=5e4), "what moves along makes no beam slender"
+    assert "youngs_modulus = 70 Pa" in said(youngs_modulus=70.0) and "is it in kg/m³" in said(density=2.7)
+    assert "speed of sound of 6.09 m/s" in said(youngs_modulus=1e5) and "1.18e+05 m/s" in said(density=5.0)
     assert said(youngs_modulus=1e6, density=1100.0) == said(youngs_modulus=1.2e12, density=3510.0) == ""
-    area = np.pi * (0.1**2 - 0.08**2) / 4.0
-    assert f"|N|/A = {1e-6 * 5e3 / area:.4g} MPa" in said(axial_force=5e3)
-    stretched = [said(axial_force=share * 206e9 * area) for share in (0.048, 0.052)]
-    assert "in N?" not in stretched[0] and "strains the section by 0.052: is it in N?" in stretched[1]
-    assert "no buoyancy is taken off" in said(added_mass=8.0, gravity=9.81)
-    assert said(gravity=9.81, fluid_density=1e3) == said(added_mass=8.0) == ""
-    assert "buoyancy" not in said(added_mass=8.0, axial_force=5e3), "a tension weighs nothing"
-    beam["beam"]["tension_direction"] = "tangent"
-    assert "buoyancy" not in said(added_mass=8.0, axial_force=5e3)
+    area = np.pi * (0.05**2 - 0.044**2) / 4.0
+    stretched = [said(axial_force=share * 70e9 * area) for share in (0.048, 0.052)]
+    assert "|N|/A = 3360 MPa" in stretched[0] and "in N?" not in stretched[0]
+    assert "strains the section by 0.052: is it in N?" in stretched[1]
+    assert "no buoyancy is taken off" in said(added_mass=8.0)
+    assert said(fluid_density=1e3) == said(added_mass=8.0, gravity=0.0) == ""
+    for direction in ("axis", "tangent"):  # a tension weighs nothing
+        assert "buoyancy" not in said(added_mass=8.0, gravity=0.0, axial_force=5e3, tension_direction=direction)
     hole = Impact.whole_beam(0.5).replace(opposite_wall=0.3, wall_curvature=0.1)
     bar = Impact(2.0, 1.0, 2.0, 0.1, 1.0)
     percent = [bar.replace(damping=ratio / (np.pi * first_mode(bar))) for ratio in (0.48, 0.52)]
@@ -229,15 +227,3 @@ def test_theory_only_simulates_nothing_and_says_what_is_missing(monkeypatch: pyt
     assert "(nothing is simulated: ask for a time after 0)" in command("predict", PIPE, "--time", "0")[1]
     mistaken = ("--set", "hermite.integrator.kind=nonsense")
     assert "hermite.integrator.kind" in refused("predict", PIPE, "--theory-only", *mistaken)
-
-
-def test_the_theory_s_largest_force_on_a_wall_is_told_in_kilonewtons_and_milliseconds() -> None:
-    asked = ("predict", PIPE, "--set", "wall.stiffness=2e7", "--theory-only")
-    wall, text = answered(*asked)["wall"], command(*asked)[1]
-    told = re.search(r"infinite beam\): (\S+) kN at (\S+) ms, over a zone of ± (\S+) m", text)
-    known = (1e-3 * wall["peak_force"], 1e3 * wall["peak_force_time"], wall["half_contact_length"])
-    assert told and tuple(map(float, told.groups())) == pytest.approx(known, rel=5e-3)
-    told = re.search(r"penetration (\S+) mm, .*ssure (\S+) kN/m\. .* ratio: (\S+) or (\S+) kN", text)
-    others = [answered(*asked[:3], f"wall.stiffness={k}", "--theory-only")["wall"]["peak_force"] for k in (1e7, 4e7)]
-    known = (1e3 * wall["penetration"], *(1e-3 * one for one in (wall["pressure"], *others)))
-    assert told and tuple(map(float, told.groups())) == pytest.approx(known, rel=5e-3)

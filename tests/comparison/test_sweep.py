@@ -27,9 +27,8 @@ def test_rows_are_the_numbers_of_bounce_and_are_kept(case, tmp_path, monkeypatch
     found = answered(*words, "--out", tmp_path / "out")
     assert [tuple(row["varied"].values()) for row in found["rows"]] == [(1, 0.01), (1, 0.02), (2, 0.01), (2, 0.02)]
     assert found["kept"] == 0 and found["failures"] == []
-    tables = {"impact.velocity": 2.0, "beam.damping_ratio": 0.02}
-    whole = answered("bounce", case, *(word for pair in tables.items() for word in ("--set", "{}={}".format(*pair))))
-    row = found["rows"][-1]
+    settings = ["impact.velocity=2.0", "beam.damping_ratio=0.02"]
+    whole, row = answered("bounce", case, "--set", settings[0], "--set", settings[1]), found["rows"][-1]
     for name in NAMES:
         of_bounce = whole["si"].get(name) or whole.get(name)
         both = [number and (number["value"], number["error"]) for number in (row[name], of_bounce)]
@@ -39,7 +38,7 @@ def test_rows_are_the_numbers_of_bounce_and_are_kept(case, tmp_path, monkeypatch
     lines = (tmp_path / "out" / "sweep.csv").read_text().splitlines()
     assert len(lines) == 5 and lines[0].startswith("impact.velocity,beam.damping_ratio,kappa_over_nu")
     assert (tmp_path / "out" / "sweep.png").stat().st_size > 10_000
-    fast = load_case(case, ["impact.velocity=2.0", "beam.damping_ratio=0.02"])
+    fast = load_case(case, settings)
     predicted = predict(fast)
     for name in ("simulate", "simulate_to_separation"):
         monkeypatch.setattr(HermiteFE, name, lambda *a, **k: pytest.fail("it ran"))
@@ -50,11 +49,7 @@ def test_rows_are_the_numbers_of_bounce_and_are_kept(case, tmp_path, monkeypatch
     again = sweep(case, {"impact.velocity": [1.0, 2.0], "beam.damping_ratio": "0.01,0.02"})
     assert again.kept == 4 and json.loads(json.dumps(again.to_dict()["rows"])) == found["rows"]
     assert again.units == {"impact.velocity": "m/s", "beam.damping_ratio": ""}
-    lines = str(again).splitlines()
-    assert len([line for line in lines if line.split()[:2] in (["1", "0.01"], ["2", "0.02"])]) == 2 and "±" in lines[2]
-    assert "last contact, ms" in lines[0] and "largest stress, MPa" in lines[0]
-    for name, unit in (("last_contact", 1e3), ("peak_stress", 1e-6)):
-        assert str(again.rows[0].numbers[name].scaled(unit)) in lines[2]
+    assert [line.split()[:2] for line in str(again).splitlines()[2:4]] == [["1", "0.01"], ["1", "0.02"]]
     assert again.table["restitution"].tolist() == [one["restitution"]["value"] for one in found["rows"]]
 
 
@@ -75,19 +70,15 @@ def test_between_two_walls_a_row_is_what_predict_would_say_at_the_end_time(case)
     run = answered("simulate", case, *words, "--set", "impact.velocity=1.0")
     assert row["until"] == 0.002 and row["restitution"] is None
     assert (row["peak_moment"]["value"], row["peak_moment"]["error"]) == (run["peak_moment"], run["peak_moment_error"])
-    said = command("sweep", case, "--jobs", 1, "--vary", "impact.velocity=1", *words)[1]
-    assert "numbers until the case's end time, 2 ms." in said
 
 
 def test_a_table_says_a_sentence_once_with_its_rows_and_a_grid_is_in_si():
     known = {"last_contact": Number(0.02, 0.001), "peak_force": Band(2e3, 1e2, 24), "restitution": Number(0.5, 0.2)}
     rows = [
-        Row({"impact.velocity": speed}, None, None, numbers, until, ["all", *told], why, False, kept)
-        for speed, numbers, until, told, why, kept in (
-            (1.0, known, 2e-3, ["one"], None, True), (2.0, known, 4e-3, ["two"], None, True),
-            (3.0, {}, None, ["two"], "stopped", False),
-        )
-    ]  # fmt: skip
+        Row({"impact.velocity": 1.0}, numbers=known, until=2e-3, warnings=["all", "one"], kept=True),
+        Row({"impact.velocity": 2.0}, numbers=known, until=4e-3, warnings=["all", "two"], kept=True),
+        Row({"impact.velocity": 3.0}, warnings=["all", "two"], reason="stopped"),
+    ]
     table = SweepTable("", "hermite", {"impact.velocity": [1.0, 2.0, 3.0]}, rows)
     lines, speed = str(table).splitlines(), "impact.velocity = "
     assert {"warning: all (all rows)", f"warning: one ({speed}1)", f"no numbers: stopped ({speed}3)",
