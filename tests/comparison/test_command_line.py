@@ -69,6 +69,7 @@ def test_a_match_whose_rows_are_all_refused_is_bad_input_and_still_a_document(ca
     ("arguments", "message"),
     [
         (["simulate", K10, "--set", "hermite.contact.kind=nod"], "did you mean node?"),
+        (["simulate", K10, "--set", "nonsense"], "--set"),
         (["match", "--first-order", "1,2"], "alpha,psi,chi"),
         (["match", "--refine", "one"], "--refine"),
         (["match", "--path", "exudyn", "--set", "hermite.mass.kind=lumped"], "not a path asked for"),

@@ -12,7 +12,7 @@ from histories import history_of, rod
 from bent_beam import Impact
 from bent_beam.cases import load_case
 from bent_beam.hysteresis import first_mode
-from bent_beam.measure.numbers import FACTOR, Number
+from bent_beam.measure.numbers import Number
 from bent_beam.meshes import UniformMesh
 from comparison import predicting
 from comparison.bouncing import case_of
@@ -185,17 +185,6 @@ def test_a_warning_of_one_of_several_runs_says_of_which() -> None:
     off = [line for line in found.warnings if "do not balance" in line]
     assert [line.partition(":")[0] for line in off] == ["run to 10 ms", "run to 1e-06 ms"]
     assert any(line.startswith("the mesh cannot resolve") for line in found.warnings), "both runs say so"
-
-
-def test_companions_disagree_about_a_force_by_what_they_change_of_parts_of_its_impulse_and_not_by_round_off() -> None:
-    """Beyond what they change of all of it: that is in the bar already."""
-    unsure = FACTOR * 1e-3 / 0.4
-    for more, all_of_it, bar in ((2.0**-50, 0.0, 0.0), (1e-3, 0.0, unsure), (3e-3, 2e-3, unsure)):
-        changes = ([0.0, 0.0, 0.0], [0.0, more, all_of_it])
-        readings = ({"impulse": 1.0, "impulse_around": [1.0 + one for one in change]} for change in changes)
-        run, other = (SimpleNamespace(reading=reading) for reading in readings)
-        runs = SimpleNamespace(run=run, companions={"x": other}, question=SimpleNamespace(until=2.0))
-        assert predicting._crossings_of_force(runs) == pytest.approx(bar, rel=1e-9, abs=0.0)
 
 
 def test_a_half_contact_that_shear_and_damping_spoil_is_told_of_a_zone_that_is_one_point_as_yet() -> None:
