@@ -49,8 +49,7 @@ def same(one, other) -> bool:
 
 def test_every_door_says_that_the_beam_yields_and_that_a_late_number_is_of_a_beam_whose_damping_nobody_stated() -> None:
     """And what is doubtful of the case itself. One run without damping has no number of the whole impact: it is a band,
-    which ``bounce`` gives; beside it a mean of some runs would be another answer. A late r₀ stands beside its theory,
-    however slight the bow."""
+    which ``bounce`` gives. A late r₀ stands beside its theory, however slight the bow."""
     pulled = ["hermite.mesh.kind=uniform", "hermite.mesh.element_length=0.15", "beam.axial_force=1.0"]
     stated = load_case(CASES / "tube.toml", pulled)
     bare = replace(stated, impact=stated.impact.replace(damping=0.0), damping_stated=False)
@@ -182,10 +181,11 @@ def test_what_differs_far_down_or_late_is_told_by_its_full_name_from_where_it_di
     pairs = {"far": meshes, "named": [f"{half}one{half}", f"{half}two{half}"], "hold": [None, 2],
              "nested": [[[*range(6)], at], [[*range(5), 7], at]]}  # fmt: skip
     slow = Impact.dimensionless(0.5)
-    one, other = (history_of([0.0, 1.0], at, impact=slow.replace(velocity=speed)) for speed in (1.0, 2.0))
+    one, other = (history_of([0.0, end], at, impact=slow.replace(velocity=end)) for end in (1.0, 2.0))
     said = " ".join(comparison_text(compare_histories(one, other) | {"settings": pairs}, "A", "B").split())
     for part in ("far.mesh.at[9:] [9, 10, 11, 12, ...] [9.5, 10, 11, 12, ...]", "far.save[10:] [] [10, 11]", "hold - 2",
-                 "nested[0][5:] [5] [7]", "named[90:] one", "velocity 1.0 2.0", "two impacts differ."):  # fmt: skip
+                 "nested[0][5:] [5] [7]", "named[90:] one", "velocity 1.0 2.0", "two impacts differ.",
+                 "end of the run 1000 2000 ms", "common time, 1000 ms."):  # fmt: skip
         assert part in said
     said = comparison_text(compare_histories(one, one), "A", "B")
     assert "two impacts are the same." in said and "what differs" not in said

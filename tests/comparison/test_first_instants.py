@@ -70,7 +70,6 @@ def test_moments_of_two_paths_stored_and_of_a_quick_run_are_within_half_a_percen
 
 @pytest.mark.parametrize("change", [{}, {"rotation": 0.2, "first_touch": 0.05}], ids=["middle", "beside it"])
 def test_before_a_curved_wall_the_slope_is_that_of_the_deflection_and_both_paths_find_the_same_moment(change) -> None:
-    """The deflection of the beam, not what lies between it and the wall."""
     impact, moments = Impact.whole_beam(0.4, relative_damping=1e-2).replace(wall_curvature=0.1, **change), []
     for kind in (HermiteFE, ExudynModel):
         history = kind(mesh=UniformMesh(1 / 100)).simulate(impact, end_time=0.01, save=20)  # both halves if it rocks

@@ -83,22 +83,17 @@ def test_every_path_matches_the_first_order(kappa, loads, method, error_bars, li
 
 
 @pytest.mark.parametrize("jobs", [1, pytest.param(2, marks=pytest.mark.verify)])
-def test_a_sweep_resumes_and_does_not_depend_on_jobs(jobs, tmp_path):
+def test_a_match_resumes_and_does_not_depend_on_jobs_or_on_who_refines(jobs, tmp_path):
     asked = questions([SelfSimilarFE(refine=0.5)], [0.5, 0.25, 2.0])
     first = match(asked[:2], store=RunStore(tmp_path))
     kept = {f.name: f.read_bytes() for f in tmp_path.iterdir()}
     both = match(asked, store=RunStore(tmp_path), jobs=jobs)
     assert both[:2] == first  # from the store: seconds and all
     assert {f.name: f.read_bytes() for f in tmp_path.iterdir() if f.name in kept} == kept
-    alone = match(asked[2:])
-    assert (alone[0].lambda0, alone[0].r0) == (both[2].lambda0, both[2].r0)
+    for number, question in ((2, asked[2]), (0, MatchQuestion(SelfSimilarFE(), 0.5, refine=0.5))):
+        alone = answer(question, KEEP)
+        assert (alone.lambda0, alone.r0) == (both[number].lambda0, both[number].r0)
     assert pickle.loads(pickle.dumps((asked, both))) == (asked, both), "as they go from process to process"
-
-
-def test_a_row_that_is_refined_has_the_numbers_and_bars_of_a_method_that_is():
-    by_row = answer(MatchQuestion(SelfSimilarFE(), 0.5, refine=0.5), KEEP)
-    by_method = answer(MatchQuestion(SelfSimilarFE(refine=0.5), 0.5), KEEP)
-    assert (by_row.lambda0, by_row.r0) == (by_method.lambda0, by_method.r0)
 
 
 def test_what_fails_is_a_row_with_its_reason(tmp_path, monkeypatch):
