@@ -145,13 +145,6 @@ def test_the_runs_of_a_band_are_coarser_of_many_sizes_and_of_the_contact_and_int
         assert 2.0**-1.5 < min(finer) < 0.42 and 0.6 < max(finer) < 2.0**-0.5, stated
 
 
-def test_few_saved_instants_hold_the_time_that_is_asked_for() -> None:
-    for save in (8, 10, 21, 200):
-        question = Question(problem(2.0, 1e-2), COARSE, 0.05, save)
-        history = question.run(question.run_by)
-        assert np.abs(history.time - 0.05).min() < 5e-4 and history.time[-1] == pytest.approx(0.055, abs=5e-4)
-
-
 def test_the_companion_that_absorbs_no_waves_has_ten_elements_in_the_root_of_time() -> None:
     """It is run of hardly any damping, η < 3e-5 T*, from 1e-5 T* on, and until waves have run: 3e-3 T*."""
     _, other = Question(problem(0.5, 0.0), HermiteFE(), 1e-4).companions()["waves_absorbed"]

@@ -27,9 +27,10 @@ from theory import predict
 
 
 def simulated(end: float, kappa_over_nu: float, **beam: float) -> list[ImpactHistory]:
-    """By Hermite elements and by Exudyn, at half the resolution, up to ``end``, T* of the beam of half length 1."""
+    """By Hermite elements and by Exudyn, at half the resolution, up to ``end``, T* of the beam of half length 1. Few
+    saved instants move no front and no moment."""
     impact, methods = Impact.whole_beam(kappa_over_nu).replace(**beam), (HermiteFE(refine=0.5), ExudynModel(refine=0.5))
-    return [method.simulate(impact, end_time=end, save=100) for method in methods]
+    return [method.simulate(impact, end_time=end, save=[0.1 * end, end]) for method in methods]
 
 
 @pytest.mark.parametrize(("damping", "gaps", "impulse"), [(1e-3, 1e-6, 1e-9), (1e2, 0.11, 1e-3)])
@@ -92,7 +93,8 @@ def test_a_pressed_zone_ends_where_theory_says_with_its_impulse() -> None:
     histories = simulated(0.0032, 0.1325, acceleration=5.25)
     theory = predict(histories[0].impact, [0.0032]).times[0]
     for history in histories:
-        assert first_front(history, history.time[-1])[0] == pytest.approx(theory.half_contact_length, rel=3e-3)
+        assert first_front(history, 0.0) == (0.0, 0.0)
+        assert first_front(history, history.time[-1])[0] == pytest.approx(theory.half_contact_length, rel=2e-3)
         assert history.array("total_impulse")[-1] == pytest.approx(theory.impulse, rel=0.005)
 
 
@@ -107,13 +109,6 @@ def test_a_run_too_short_for_its_damping_stops() -> None:
     """To a ten-thousandth of η viscous round-off is as large as the forces: no answer, rather than 6 % less impulse."""
     with pytest.raises(SimulationError):
         ExudynModel().simulate(Impact.whole_beam(0.3, relative_damping=1e-3), end_time=1e-7, save=10)
-
-
-def test_few_saved_instants_move_no_front() -> None:
-    history = HermiteFE().simulate(Impact.whole_beam(0.3), end_time=0.002, save=[0.0002, 0.002])
-    theory = predict(history.impact, [0.002]).times[0].half_contact_length
-    assert first_front(history, history.time[-1])[0] == pytest.approx(theory, rel=2e-3)
-    assert first_front(history, 0.0) == (0.0, 0.0)
 
 
 def test_a_zone_that_its_scheme_throws_off_the_wall_is_pushed_too_hard_and_the_bar_says_so() -> None:
