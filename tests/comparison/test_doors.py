@@ -27,6 +27,7 @@ from comparison.simulating import simulate_case
 from comparison.store import RunStore
 from comparison.sweeping import Row
 from comparison.texts import run_text
+from comparison.whole_numbers import HIT
 from hermite_fe import HermiteFE
 from theory import contact_parameters
 
@@ -206,9 +207,11 @@ def test_a_wall_that_gives_way_and_is_not_yet_touched_has_no_place_of_its_force(
     assert "It passes its rest position at" in said and "arrives" not in said
     assert "0.3 ms after it passes its rest position" in said and "has not reached its wall, 0.0002 m away" in said
     hit = {"peak_force_wall": "opposite", "peak_force_time": 0.0125, "peak_force_place": 0.25, "numerical_loss": 0.031}
+    hit["hits"] = [dict.fromkeys(HIT, 1.0) | {"wall": "opposite"}]
     said = run_text(document | hit | {"time": 0.02})
     assert "moment, until 20 ms" in said and "on the opposite wall, at 12.5 ms and 0.25 m" in said
-    assert re.search(r"lost to steps and mesh +3\.1 +% of", said)
+    assert re.search(r"lost to steps and mesh +3\.1 +% of", said) and "impulse, of the front less the opposite" in said
+    assert re.search(r"\nhit +wall .*V before, m/s .*lost, J", said) and "restitution" not in said
 
 
 def test_a_stop_beside_the_apex_of_a_bow_is_met_later_or_never() -> None:

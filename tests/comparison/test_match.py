@@ -99,17 +99,21 @@ def test_a_match_resumes_and_does_not_depend_on_jobs_or_on_who_refines(jobs, tmp
 def test_what_fails_is_a_row_with_its_reason(tmp_path, monkeypatch):
     for figure in ("matching.draw_matching", "work_precision.draw_work_precision"):  # tests of the report draw them
         monkeypatch.setattr(f"comparison.figures.{figure}", lambda *_: [])
+    errors = (KeyError, MemoryError, SystemExit)  # outside its run
     at_once = [Stranger(), *(Stranger(trouble, trouble) for trouble in ("fails", "refuses"))]
+    at_once += [Stranger(error, error.__name__) for error in errors]
     rows = match(questions(at_once, [0.5])) + match(questions([Stranger("creeps", "creeps")], [0.5]), limit=0.2)
-    assert [r.r0.value is None for r in rows] == [False, True, True, True]
+    assert [r.r0.value is None for r in rows] == [False, *[True] * 6]
     assert "no luck" in rows[1].reason
-    assert rows[3].reason == "time limit: not finished after 0.2 s"
+    assert all(r.reason.startswith(r.label) and "nobody looked" in r.reason for r in rows[3:6])
+    assert rows[6].reason == "time limit: not finished after 0.2 s"
     assert all(f.stat().st_size > 100 for f in write_match(rows, tmp_path))
     (tmp_path / "work-precision-first-order.png").write_text("of an earlier match")
     assert {*write_match(rows, tmp_path)} == {*tmp_path.iterdir()}
     document = json.loads((tmp_path / "match.json").read_text())
     assert document["rows"][1]["r0"] == {"value": None, "error": None, "theory": rows[0].r0.theory}
-    assert [f["label"] for f in document["failures"]] == ["fails", "creeps"]  # what refuses says so before the run
+    lost = ["fails", *(error.__name__ for error in errors), "creeps"]  # what refuses says so before the run
+    assert [f["label"] for f in document["failures"]] == lost
     assert all(r.reason in match_table(rows) for r in rows if r.reason) and "refined 1 times" not in match_table(rows)
 
 
@@ -123,12 +127,6 @@ def test_the_plot_shows_what_was_measured_and_says_what_is_missing_of_nothing_el
         (points,) = (line for line in figure.axes[0].lines if line.get_label() == "Stranger")
         assert points.get_xdata().tolist() == [0.5, 0.6]
     assert "1 row (Stranger)" in leading_figure([lost, other]).get_supxlabel()
-
-
-def test_what_fails_outside_its_run_costs_its_row_too():
-    errors = (KeyError, MemoryError, SystemExit)
-    for error, row in zip(errors, match([MatchQuestion(Stranger(error), 0.5) for error in errors]), strict=True):
-        assert row.reason.startswith(error.__name__) and "nobody looked" in row.reason and not row.refused
 
 
 without_lift = cache(SelfSimilarFE.simulate)
