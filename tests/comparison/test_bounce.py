@@ -96,7 +96,7 @@ def test_without_damping_a_seeded_band_takes_the_place_of_a_number(monkeypatch) 
 
 @pytest.mark.parametrize("path", ["hermite", "exudyn"])
 def test_a_run_until_separation_ends_off_the_wall_on_either_path(path, tmp_path) -> None:
-    asked = ("simulate", rod(tmp_path, element=0.05), "--path", path, "--error-bars", "drift")
+    asked = ("simulate", rod(tmp_path, element=0.1), "--path", path, "--error-bars", "drift")
     kept = tmp_path / "run.nc"
     found = answered(*asked, "--until", "separation", "--out", kept)
     history = ImpactHistory.load(kept)
@@ -112,7 +112,7 @@ def test_a_run_until_separation_ends_off_the_wall_on_either_path(path, tmp_path)
         first, second = answered(*asked, *(word for one in light for word in ("--set", one)))["hits"]
         assert {first["wall"], second["wall"]} == {"front"}
         assert second["before"] == pytest.approx(-first["after"], rel=0.02)
-    rod(tmp_path, "[wall]\nopposite = 0.01", element=0.05)  # the same file
+    rod(tmp_path, "[wall]\nopposite = 0.01", element=0.1)  # the same file
     found = answered(*asked, "--set", "run.end_time=0.04", "--save", "1000")
     assert [hit["wall"] for hit in found["hits"][:2]] == ["front", "opposite"]
     assert all(hit["impulse"] > 0.0 and hit["lost"] > 0.0 for hit in found["hits"][:2])
