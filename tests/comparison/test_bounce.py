@@ -15,7 +15,7 @@ from bent_beam import Impact, ImpactHistory, load_case
 from bent_beam.measure.numbers import Band
 from bent_beam.measure.whole_impact import whole_impact
 from bent_beam.meshes import UniformMesh
-from bent_beam.method import separation_times, simulate_to_separation, time_on_wall
+from bent_beam.method import LONGEST_OF_WALL, separation_times, simulate_to_separation, time_on_wall
 from comparison.bouncing import bounce, case_of, follow_hits, problem
 from comparison.questions import Question
 from comparison.store import RunStore
@@ -129,6 +129,8 @@ def test_the_command_gives_numbers_with_bars_figures_and_the_stress_of_the_large
     assert json.loads((out / "bounce.json").read_text()) == {n: v for n, v in found.items() if n != "files"}
     assert 0.0 < found["restitution"]["value"] < 1.0 and found["left"]
     assert len(found["hits"]) == 1 and found["warnings"][-1].startswith("1 of 3 hits: then the beam is off for good")
+    longest = 1e3 * LONGEST_OF_WALL * load_case(tmp_path / "rod.toml").impact.slow_time_scale
+    assert found["warnings"][-1].endswith(f"or is not back by {longest:.3g} ms")
     momentum, modulus = 7850.0 * math.pi * 0.01**2 * 2.0, math.pi * 0.02**3 / 32.0
     impulse, restitution = found["si"]["impulse"]["value"], found["restitution"]["value"]
     assert impulse == pytest.approx(momentum * (1.0 + restitution), rel=1e-6)

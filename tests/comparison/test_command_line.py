@@ -112,6 +112,11 @@ def test_bad_input_is_one_line_and_exit_2(arguments, message):
     assert message in refused(*arguments)
 
 
+def test_the_beam_of_two_numbers_is_told_to_be_no_real_one():
+    code, out, _ = command("bounce", "--kappa-over-nu", 2, "--damping", 0.1, "--set", "hermite.refine=0.1", "--quiet")
+    assert code == 0 and "L/2 = EI = mu = V0 = 1" in out
+
+
 def test_a_solver_that_cannot_finish_is_exit_3_with_a_partial_history(tmp_path, monkeypatch):
     part, why = pushed_until(0.5), "the Newton solve diverged"
     failed = SimulationError(why, time=1e-5, step=12, advice="a smaller step", history=part)

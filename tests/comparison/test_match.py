@@ -58,12 +58,15 @@ def test_a_point_contact_does_not_spread(method, tmp_path):
 
 
 UNITS = [(1, 0, 0), (0, 1, 0), (0, 0, 1), (4, 0, 0), (0, 2, 0), (1, 1, 1), (-1, 0, 0), (-1, -1, 0), (-1, -1, 1)]
+SOME = [(4, 0, 0), (1, 1, 1), (-1, -1, 0), (2, -1, 0.5)]
 FIRST_ORDER = [  # kappas, loads, method, error bars, share of max(|theory|, 1); more in tables of the docs
     *((kappa, UNITS, SelfSimilarFE(), "quick", 0.03 if kappa == 0.1 else 0.01) for kappa in (0.1, 0.3, 0.5, 0.8)),
-    (0.4, [(2, -1, 0.5), (0, -2, 1)], HermiteFE(), "quick", 0.01),
+    *((kappa, [(2, -1, 0.5), (0, -2, 1)], HermiteFE(), "quick", 0.01) for kappa in (0.2, 0.4, 0.65)),
+    *((kappa, SOME, ExudynModel(), "quick", 0.03) for kappa in (0.3, 0.4, 0.5, 0.65, 0.8)),
     # under tension: held by a load, and in free flight, where λ₁ and r₁ are λ_N and r_N
     *((k, [(0, 0, 0, 1), (-k, 0, 0, 1)], SelfSimilarFE(), "drift", 3e-3) for k in (0.1, 0.15, 0.25, 0.35, 0.5, 0.8)),
     *((kappa, [(-kappa, 0, 0, 1)], ExudynModel(), "drift", 0.03) for kappa in (0.1, 0.25, 0.5, 0.8)),
+    (0.5, [(4, 0, 0)], ExudynModel(refine=0.5), "drift", 0.01),
     (0.07, [(-2, 0, 0, 3)], ExudynModel(), "drift", 0.02),  # a thin front off which the load lifts the zone
     (0.28, [(0, 1, 0)], ExudynModel(), "drift", 0.02),  # the far field would come to the wall
     (0.99, [(1, 0, 0), (-1, 0, 0)], ExudynModel(), "drift", 0.1),  # a zone of a few hundredths
