@@ -36,10 +36,8 @@ from theory._fresnel import FloatArray
 class FlyingBar:
     """A bar flying at the wall at ``velocity`` > 0, its near end (x = 0) ``gap`` ≥ 0 away; any consistent units.
 
-    ``stiffness`` is EA, ``mass_per_length`` μ; c = √(EA/μ).
-
-    Raises:
-        ValueError: an attribute out of its range, x off the bar, a negative time.
+    ``stiffness`` is EA, ``mass_per_length`` μ; c = √(EA/μ). ``ValueError`` for an attribute out of its range, x off the
+    bar, a negative time.
     """
 
     length: float = 1.0
@@ -94,11 +92,8 @@ class FlyingBar:
 
 @dataclass(frozen=True)
 class DroppedBar:
-    """A bar dropped from a height; any consistent units, the defaults those of Doyen, Ern, Piperno.
-
-    Raises:
-        ValueError: the flight is no whole number of 2L/c, or the bar is so soft that it stays for longer.
-    """
+    """A bar dropped from a height; any consistent units, the defaults those of Doyen, Ern, Piperno. ``ValueError``
+    where the flight is no whole number of 2L/c, or the bar is so soft that it stays for longer."""
 
     length: float = 10.0
     stiffness: float = 900.0

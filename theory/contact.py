@@ -47,14 +47,13 @@ class ContactParameters:
 
     Floats and a string when every argument was a scalar, arrays of the broadcast shape otherwise.
 
-    Attributes:
-        kappa_over_nu, alpha, psi, chi: what was asked for.
-        regime: "discrete", "continuous" or "detached".
-        lambda0, lambda1: half contact length √τ(λ₀ + ελ₁τ), the axial force's part of λ₁ included.
-        r0, r1: concentrated reactions, in total 2√(2/π)(r₀ + εr₁τ)/√τ, the axial force's part of r₁ included.
-        axial: axial force n/ε, tension positive.
-        lambda_axial, r_axial: λ_N and r_N, what a unit of `axial` adds to λ₁ and r₁ when α′ = α + axial·κ is kept.
-        uniform_reaction: r̃₁, the reaction per length ε r̃₁ in the contact zone: α′+ψ if continuous, else 0 (2.7.5).
+    kappa_over_nu, alpha, psi, chi : what was asked for.
+    regime : "discrete", "continuous" or "detached".
+    lambda0, lambda1 : half contact length √τ(λ₀ + ελ₁τ), the axial force's part of λ₁ included.
+    r0, r1 : concentrated reactions, in total 2√(2/π)(r₀ + εr₁τ)/√τ, the axial force's part of r₁ included.
+    axial : axial force n/ε, tension positive.
+    lambda_axial, r_axial : λ_N and r_N, what a unit of `axial` adds to λ₁ and r₁ when α′ = α + axial·κ is kept.
+    uniform_reaction : r̃₁, the reaction per length ε r̃₁ in the contact zone: α′+ψ if continuous, else 0 (2.7.5).
     """
 
     kappa_over_nu: Any
@@ -73,25 +72,18 @@ class ContactParameters:
 
 
 def contact_parameters(
-    kappa_over_nu: ArrayLike,
-    alpha: ArrayLike = 0.0,
-    psi: ArrayLike = 0.0,
-    chi: ArrayLike = 0.0,
-    axial: ArrayLike = 0.0,
+    kappa_over_nu: ArrayLike, alpha: ArrayLike = 0.0, psi: ArrayLike = 0.0, chi: ArrayLike = 0.0, axial: ArrayLike = 0.0
 ) -> ContactParameters:
     """λ₀, r₀ (leading order) and λ₁, r₁ (first order) of the impact.
 
-    Args:
-        kappa_over_nu: curvature over velocity κ/ν > 0.
-        alpha, psi, chi: acceleration, fourth derivative and rate of curvature of the slow motion
-            (2.2.34)–(2.2.36), with what an axial force does to it; first order is linear in them.
-        axial: axial force N/(μV₀²)/ε, tension positive. A bow free of stress under tension alone is α = −axial·κ.
+    kappa_over_nu : curvature over velocity κ/ν > 0.
+    alpha, psi, chi : acceleration, fourth derivative and rate of curvature of the slow motion (2.2.34)–(2.2.36), with
+        what an axial force does to it; first order is linear in them.
+    axial : axial force N/(μV₀²)/ε, tension positive. A bow free of stress under tension alone is α = −axial·κ.
 
     All arguments broadcast. Relative error below 1e-12 for κ/ν in 1e-12…1e12, of r₁ and λ₁ relative to
-    the largest contribution of α, ψ, χ and the axial force. α′+ψ that is 0 but for rounding counts as 0.
-
-    Raises:
-        ValueError: κ/ν not positive and finite, κ/ν < 1e-60, α, ψ, χ or the axial force not finite, any beyond 1e100.
+    the largest contribution of α, ψ, χ and the axial force. α′+ψ that is 0 but for rounding counts as 0. ``ValueError``
+    for κ/ν not positive and finite, κ/ν < 1e-60, α, ψ, χ or the axial force not finite, any beyond 1e100.
 
     >>> from theory import contact_parameters
     >>> found = contact_parameters(0.5, alpha=4.0)
@@ -193,9 +185,7 @@ def _continuous(
     phi_lambda, phi_lambdadot = phi.phi_lambda(at), phi.phi_lambdadot(at)
     # 2α − 2(α+ψ)φ_p in the form that does not cancel: φ_p → 0 for small λ, → 1 for large λ
     deflection = np.where(
-        lam < 1.0,
-        2.0 * alpha - 2.0 * pushed * phi.phi_p(at),
-        2.0 * pushed * phi.one_minus_phi_p(at) - 2.0 * psi,
+        lam < 1.0, 2.0 * alpha - 2.0 * pushed * phi.phi_p(at), 2.0 * pushed * phi.one_minus_phi_p(at) - 2.0 * psi
     )
     curvature = 4.0 * chi + np.sqrt(2.0 * np.pi) * pushed * phi.phi_pdot(at)
     # φ_α·curvature + 2φ_κ̇·deflection; for small λ the parts linear in λ of the uniform reaction's

@@ -48,9 +48,8 @@ _LATEST, _STEPS = 2.2, 800  # τ; the force is largest at 2.01
 class WallHistory:
     """The zone as a whole over time, arrays of one shape, in t_k, V₀√μ(EI k)^{1/4}, ℓ_k, V₀t_k and kV₀t_k.
 
-    Attributes:
-        half_contact_length: distance of the outermost point that the wall pushes from the middle; 0: no contact.
-        penetration, pressure: the largest of any point at the time.
+    half_contact_length : distance of the outermost point that the wall pushes from the middle; 0: no contact.
+    penetration, pressure : the largest of any point at the time.
     """
 
     time: FloatArray
@@ -69,10 +68,9 @@ class WallHistory:
 class PeakForce:
     """The largest force with its error bar and the largest penetration and pressure, units as above.
 
-    Attributes:
-        error: what Richardson's rule adds, and how far it is from the same rule on grids twice as coarse.
-        time, half_contact_length: when the force is largest, to 1 % and 2 %.
-        penetration, pressure: the largest at any place and time; relative error 1e-2. penetration_time: when, to 1 %.
+    error : what Richardson's rule adds, and how far it is from the same rule on grids twice as coarse.
+    time, half_contact_length : when the force is largest, to 1 % and 2 %.
+    penetration, pressure : the largest at any place and time; relative error 1e-2. penetration_time : when, to 1 %.
     """
 
     value: float
@@ -85,15 +83,8 @@ class PeakForce:
 
 
 def peak_force(kappa_over_nu: float, wall_damping_ratio: float = 0.0) -> PeakForce:
-    """f(κ/ν, ζ), in V₀√μ(EI k)^{1/4}.
-
-    Args:
-        kappa_over_nu: κ/ν = K√(EI/μ)/V₀, 1e-6 to 1e6.
-        wall_damping_ratio: ζ = c/(2√(kμ)), 0 to 5.
-
-    Raises:
-        ValueError: a value outside its range.
-    """
+    """f(κ/ν, ζ), in V₀√μ(EI k)^{1/4}, for κ/ν = K√(EI/μ)/V₀ from 1e-6 to 1e6 and ζ = c/(2√(kμ)) from 0 to 5;
+    ``ValueError`` for others."""
     ratio = between("kappa_over_nu", kappa_over_nu, FLATTEST, SHARPEST)
     return _peak_force(ratio, between("wall_damping_ratio", wall_damping_ratio, 0.0, MOST_DAMPED))
 
@@ -149,11 +140,9 @@ def wall_history(
     width: float | None = None,
 ) -> WallHistory:
     """Force, zone, penetration and pressure until `end` (t_k) in `steps`, on a grid of `cells` over half the zone.
+    ``ValueError`` for a value outside its range.
 
-    width: half length of the grid, ℓ_k; by default a little more than the zone of a beam that does not bend.
-
-    Raises:
-        ValueError: a value outside its range.
+    width : half length of the grid, ℓ_k; by default a little more than the zone of a beam that does not bend.
     """
     between("kappa_over_nu", kappa_over_nu, FLATTEST, SHARPEST)
     between("wall_damping_ratio", wall_damping_ratio, 0.0, MOST_DAMPED)

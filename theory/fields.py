@@ -53,11 +53,9 @@ class FieldValues:
 class ImpactFields:
     """The solution of the fast layer at a given ε, dimensionless.
 
-    Attributes:
-        parameters: contact parameters of one impact (scalars).
-        epsilon: ε ≥ 0; 0 for the leading order.
-        tolerance: largest absolute error of η/τ, η_ξ/√τ, η_ξξ and η_τ that the quadrature aims at, but
-            for the rounding of the phase, 1e-15 r₀ max(λ₀, |ξ|/√τ).
+    parameters : contact parameters of one impact (scalars). epsilon : ε ≥ 0; 0 for the leading order.
+    tolerance : largest absolute error of η/τ, η_ξ/√τ, η_ξξ and η_τ that the quadrature aims at, but for the rounding of
+        the phase, 1e-15 r₀ max(λ₀, |ξ|/√τ).
 
     All methods raise ValueError for τ < 0, for ξ or τ not finite, and for a τ so large that the first-order
     correction would turn the front back (λ₀ + 3ελ₁τ ≤ 0), where the expansion says nothing; the fields raise

@@ -49,10 +49,8 @@ from theory.bars import placed
 class BouncingBall:
     """A ball of unit mass that starts at ``height`` ≥ 0 with ``velocity``, upwards positive; any consistent units.
 
-    Relative error 1e-13. At an impact the values are those after it.
-
-    Raises:
-        ValueError: an attribute out of its range, a start on the floor without an upward velocity, a negative time.
+    Relative error 1e-13. At an impact the values are those after it. ``ValueError`` for an attribute out of its range,
+    a start on the floor without an upward velocity, a negative time.
     """
 
     height: float = 1.0

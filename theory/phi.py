@@ -79,11 +79,7 @@ def phi_pdot(lam: ArrayLike | Argument) -> Any:
 
 def phi_alpha(lam: ArrayLike | Argument) -> Any:
     """φ_α = (16/π)∫λ³β²H/(β²+λ²)³ dβ (2.7.23): deflection by r₁, and at ξ = λ_c by r₀ (2.7.54)."""
-    return _evaluate(
-        lam,
-        lambda x, nu, kappa: nu - x**2 / 2.0 * kappa,
-        lambda q, m: (2.0 * m[3] - m[2]) * q**-2.5,
-    )
+    return _evaluate(lam, lambda x, nu, kappa: nu - x**2 / 2.0 * kappa, lambda q, m: (2.0 * m[3] - m[2]) * q**-2.5)
 
 
 def phi_lambda(lam: ArrayLike | Argument) -> Any:

@@ -50,13 +50,12 @@ class PredictionAtTime:
     moment and stress of a damped point in its first 75 η, where the moment ahead of it may be the largest: it has no
     closed form.
 
-    Attributes:
-        contact_force_per_length: the uniform reaction in the zone, N/m.
-        peak_moment: largest bending moment of the elastic strain, N m, at leading order.
-        peak_moment_place: its distance from the middle, m; 0 for the contact zone.
-        peak_stress: largest stress by bending and axial force, Pa.
-        valid: `Prediction.valid_from` ≤ time ≤ `Prediction.valid_until`.
-        spoiled_by: why it is not valid, one of the names in `theory.validity`; None where it is.
+    contact_force_per_length : the uniform reaction in the zone, N/m.
+    peak_moment : largest bending moment of the elastic strain, N m, at leading order.
+    peak_moment_place : its distance from the middle, m; 0 for the contact zone.
+    peak_stress : largest stress by bending and axial force, Pa.
+    valid : `Prediction.valid_from` ≤ time ≤ `Prediction.valid_until`.
+    spoiled_by : why it is not valid, one of the names in `theory.validity`; None where it is.
     """
 
     time: float
@@ -76,23 +75,20 @@ class PredictionAtTime:
 class Prediction:
     """Theory of one impact: groups and parameters (ν = 1, dimensionless), scales (SI), its times, its validity.
 
-    Attributes:
-        lambda1, r1: with everything; `lambda_axial`, `r_axial` per unit of `axial`.
-        peak_moment, peak_stress: the largest at leading order until `valid_until`, N m, Pa. Without damping they are
-            constant in time; where the theory never holds, they are those without damping. None as in
-            `PredictionAtTime`. Waves that come back from the ends make larger ones: they are those of the first
-            instants only.
-        valid_from, valid_until: s; half length and impulse are within 2 % between them (`theory.validity`), but for the
-            half length of one point that shears under a load or with damping, which it leaves out.
-        force_until: s; until then the force, a mean over a tenth of the time before and after, is within 2 %, too.
-            Later `times` still have a force, which may be further off; ``bentbeam predict`` leaves it out.
-        valid_after: what spoils them before valid_from, one of the names in `theory.validity`; None: nothing does.
-        limited_by: what ends it, one of these names.
-        yields: whether the stress at leading order without damping is beyond the yield stress; None if either is not
-            known.
-        peak_force: the largest force on the whole zone, N; None on a rigid wall, where it is infinite.
-        wall: that with all about a wall that gives way. Everything else is that of a rigid wall, but for the half
-            length, which is `WallPrediction.zone_offset` longer.
+    lambda1, r1 : with everything; `lambda_axial`, `r_axial` per unit of `axial`.
+    peak_moment, peak_stress : the largest at leading order until `valid_until`, N m, Pa. Without damping they are
+        constant in time; where the theory never holds, they are those without damping. None as in `PredictionAtTime`.
+        Waves that come back from the ends make larger ones: they are those of the first instants only.
+    valid_from, valid_until : s; half length and impulse are within 2 % between them (`theory.validity`), but for the
+        half length of one point that shears under a load or with damping, which it leaves out.
+    force_until : s; until then the force, a mean over a tenth of the time before and after, is within 2 %, too.
+        Later `times` still have a force, which may be further off; ``bentbeam predict`` leaves it out.
+    valid_after : what spoils them before valid_from, one of the names in `theory.validity`; None: nothing does.
+    limited_by : what ends it, one of these names.
+    yields : whether the stress at leading order without damping is beyond the yield stress; None if it is not known.
+    peak_force : the largest force on the whole zone, N; None on a rigid wall, where it is infinite.
+    wall : that with all about a wall that gives way. Everything else is that of a rigid wall, but for the half length,
+        which is `WallPrediction.zone_offset` longer.
     """
 
     kappa_over_nu: float
@@ -134,20 +130,13 @@ class Prediction:
 
 
 def predict(impact: Impact, times: Iterable[float] | float = (), *, section: Section | None = None) -> Prediction:
-    """Contact length, reaction, impulse, moment and stress of an impact, and until when they hold.
+    """Contact length, reaction, impulse, moment and stress of an impact, and until when they hold. Relative error 1e-11
+    of the theory's own formulas; how far these are from the beam is what `valid_until` is about.
 
-    Args:
-        impact: the physical problem.
-        times: times after the first contact, s, each ≥ 0.
-        section: for stress and yield.
+    times : after the first contact, s, each ≥ 0. section : for stress and yield.
 
-    Returns:
-        Prediction: relative error 1e-11 of the theory's own formulas; how far these are from the beam is
-        what `valid_until` is about.
-
-    Raises:
-        ValueError: a beam as curved as its wall (K = K_w), one that rocks (rotation, first_touch), a wall or supports
-            that the theory does not have, or a time that is negative, not finite or beyond 1e30 t*.
+    Raises ``ValueError`` for a beam as curved as its wall (K = K_w), one that rocks (rotation, first_touch), a wall or
+    supports that the theory does not have, or a time that is negative, not finite or beyond 1e30 t*.
 
     >>> from bent_beam import Impact
     >>> from theory import predict

@@ -36,7 +36,7 @@ _LAST, _LAST_NEAR = 30, 220.0  # n from which it runs downwards: _LAST + _LAST_N
 class SecondOrder:
     """λ₂ and r₂ of one impact, and its λ₁ and r₁ once more, found on the way without any φ.
 
-    opening: rate at which the loads change the curvature of the gap at the front, in τ; one point, whose gap has
+    opening : rate at which the loads change the curvature of the gap at the front, in τ; one point, whose gap has
         κ − 1 at first, spreads once it is gone.
     """
 
@@ -48,11 +48,7 @@ class SecondOrder:
 
 
 def second_order(parameters: ContactParameters) -> SecondOrder:
-    """λ₂ and r₂ of one impact (scalar parameters); relative error about 1e-6, for λ₀ < 100.
-
-    Raises:
-        ValueError: parameters of several impacts.
-    """
+    """λ₂ and r₂ of one impact; relative error about 1e-6, for λ₀ < 100. ``ValueError`` for parameters of several."""
     p = parameters
     if np.ndim(p.lambda0):
         raise ValueError("parameters must be those of one impact (got arrays)")

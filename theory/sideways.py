@@ -2,9 +2,8 @@ r"""A round beam that turns while it hits the wall: Coulomb's friction drives it
 
     μ z_tt + EI z_xxxx − N z_xx = μ_f r   where every loaded contact slides,   μ η_tt + EI η_xxxx − N η_xx = r,
 
-so z = μ_f η exactly: sideways the beam does what the wall does to it, times μ_f. A contact's sideways velocity is
-μ_f η_t = μ_f ∂_t y₀, the surface's is v_s = ωD/2, so it slides as long as v_s > μ_f ∂_t y₀. At leading order
-∂_t y₀ = V₀: it slides for ever or sticks at once, and then z = (v_s/V₀)η has the contacts at v_s and stays inside
+so z = μ_f η exactly, and a contact slides as long as the surface's speed v_s = ωD/2 is more than μ_f ∂_t y₀. At leading
+order ∂_t y₀ = V₀: it slides for ever or sticks at once, and then z = (v_s/V₀)η has the contacts at v_s and stays inside
 Coulomb's cone. At first order ∂_t y₀ = V₀ + a₀t + c₀x²/2, fastest at the front x² = λ₀²ct for c₀ > 0, and in the middle
 of a pressed zone for c₀ < 0: it sticks at
 
@@ -27,11 +26,9 @@ from theory.prediction import Prediction, predict
 class SidewaysAtTime:
     """Along the wall at one time, SI units; None where `Prediction` has none.
 
-    Attributes:
-        push: force of the wall on the beam along the surface's velocity, N.
-        push_impulse: its time integral, N s.
-        torque_impulse: that times the radius, N m s, what brakes the spin; None without a radius.
-        valid: the impact's prediction holds, and a beam that slides has not stuck yet.
+    push : force of the wall on the beam along the surface's velocity, N. push_impulse : its time integral, N s.
+    torque_impulse : that times the radius, N m s, what brakes the spin; None without a radius.
+    valid : the impact's prediction holds, and a beam that slides has not stuck yet.
     """
 
     time: float
@@ -45,11 +42,9 @@ class SidewaysAtTime:
 class Sideways:
     """Sideways motion of one impact.
 
-    Attributes:
-        motion: "slides" or "sticks", at the first instant.
-        ratio: z/η, sideways motion over what the wall does to the beam: μ_f or v_s/V₀.
-        sticks_at: s; when a beam that slides comes to stick, 0 if it sticks at once, None if it never does.
-        times: a row a time.
+    motion : "slides" or "sticks", at the first instant.
+    ratio : z/η, sideways motion over what the wall does to the beam: μ_f or v_s/V₀.
+    sticks_at : s; when a beam that slides comes to stick, 0 if it sticks at once, None if it never does.
     """
 
     motion: str
@@ -68,15 +63,11 @@ def sideways(
 ) -> Sideways:
     """Does the turning beam slide or stick, and what does the wall give it along the surface?
 
-    Args:
-        impact: the impact in the plane normal to the wall.
-        surface_speed: v_s ≥ 0 of the beam's surface along the wall, m/s.
-        friction: coefficient of friction μ_f > 0 of Coulomb's law, the same at rest and in motion.
-        times: times after the first contact, s.
-        radius: of the section, m; for the torque impulse.
+    impact : in the plane normal to the wall. surface_speed : v_s ≥ 0 of the beam's surface along the wall, m/s.
+    friction : μ_f > 0 of Coulomb's law, the same at rest and in motion. times : after the first contact, s.
+    radius : of the section, m; for the torque impulse.
 
-    Raises:
-        ValueError: an argument out of its range, or an impact that `theory.predict` refuses.
+    Raises ``ValueError`` for an argument out of its range, or an impact that `theory.predict` refuses.
     """
     non_negative("surface_speed", surface_speed)
     positive("friction", friction)

@@ -130,10 +130,9 @@ class SelfSimilarWave:
 class PeakMoment:
     """Bending moments of one impact or of many, in V₀√(EIμ); floats for a scalar κ/ν, arrays otherwise.
 
-    Attributes:
-        at_contact: what straightens the beam in the contact zone: κ, or 1 where the beam touches in one point.
-        ahead: the largest ahead of the zone, of opposite sign: there the beam bends further.
-        place: where that is, x = ξ/√τ > λ₀.
+    at_contact : what straightens the beam in the contact zone: κ, or 1 where the beam touches in one point.
+    ahead : the largest ahead of the zone, of opposite sign: there the beam bends further.
+    place : where that is, x = ξ/√τ > λ₀.
     """
 
     at_contact: Any
@@ -152,13 +151,8 @@ class PeakMoment:
 
 
 def peak_moment(kappa_over_nu: ArrayLike) -> PeakMoment:
-    """Largest bending moments at leading order; relative error below 1e-12.
-
-    Args:
-        kappa_over_nu: curvature over velocity κ/ν > 0.
-
-    Raises:
-        ValueError: as `theory.contact_parameters`.
+    """Largest bending moments at leading order, for κ/ν > 0; relative error below 1e-12. ``ValueError`` as of
+    `theory.contact_parameters`.
 
     >>> from theory import peak_moment
     >>> round(float(peak_moment(0.5).largest), 5)  # over V₀√(EIμ)

@@ -40,12 +40,10 @@ class Release:
 class StoppedBeam:
     """The beam stopped at its middle, in units ℓ = EI = μ = V₀ = 1; times t ≥ 0 of any shape.
 
-    Attributes:
-        damping: η/T* > 0, Kelvin and Voigt's time in units of T* = ℓ²√(μ/EI).
+    damping : η/T* > 0, Kelvin and Voigt's time in units of T* = ℓ²√(μ/EI).
 
-    Raises:
-        ValueError: no damping, or so little (below about 1e-16) that the sum would take more than 400,000 modes; a
-            time that is negative or not finite, or 0 where the reaction or the moment is asked for.
+    Raises ``ValueError`` without damping, or with so little (below about 1e-16) that the sum would take more than
+    400,000 modes; for a time that is negative or not finite, or 0 where the reaction or the moment is asked for.
     """
 
     damping: float
@@ -75,10 +73,8 @@ class StoppedBeam:
         """The first sign change of the reaction, relative error 1e-10.
 
         Steps of an eighth of the shortest period still alive look for it; a dip between them that stays positive on
-        the grid is searched for its lowest point.
-
-        Raises:
-            ArithmeticError: none before 20 T* (a beam so damped that it only creeps).
+        the grid is searched for its lowest point. ``ArithmeticError``: none before 20 T* (a beam so damped that it only
+        creeps).
         """
         from scipy.optimize import brentq, minimize_scalar  # slow to load
 

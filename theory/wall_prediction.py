@@ -39,18 +39,16 @@ class WallPrediction:
     The numbers of the largest force are None where κ/ν or ζ is beyond the range of `theory.elastic_wall`. They are
     those of an infinite undamped beam without loads; `spoiled_by` names what makes this one another.
 
-    Attributes:
-        time_scale, length_scale: t_k, s, and ℓ_k, m.
-        damping_ratio: ζ.
-        peak_force, peak_force_error, peak_force_time: the largest force on the whole zone, N, and when it acts, s.
-        half_contact_length: of the zone then, m.
-        penetration, pressure: the largest anywhere, m and N/m; the penetration None where something changes it, and not
-            the force, by more than 2 % before it is largest, which a damped wall puts off.
-        spoiled_by: what changes the force by more than 2 % before it is largest, one of the names in
-            `theory.validity`; None: nothing.
-        zone_offset: what the wall makes the zone longer by later, m; 0 for one point, whose zone shrinks.
-        rigid_from: time after which the force over a tenth of the time, its place and the impulse are those of the
-            rigid wall to 2 %, s; infinite where none is known.
+    time_scale, length_scale, damping_ratio : t_k, s, ℓ_k, m, and ζ.
+    peak_force, peak_force_error, peak_force_time : the largest force on the whole zone, N, and when it acts, s.
+    half_contact_length : of the zone then, m.
+    penetration, pressure : the largest anywhere, m and N/m; the penetration None where something changes it, and not
+        the force, by more than 2 % before it is largest, which a damped wall puts off.
+    spoiled_by : what changes the force by more than 2 % before it is largest, one of the names in `theory.validity`;
+        None: nothing.
+    zone_offset : what the wall makes the zone longer by later, m; 0 for one point, whose zone shrinks.
+    rigid_from : time after which the force over a tenth of the time, its place and the impulse are those of the rigid
+        wall to 2 %, s; infinite where none is known.
     """
 
     time_scale: float
