@@ -58,10 +58,9 @@ def cannot_return(impact: Impact, x: Array, gap: Array, velocity: Array, energy:
 
 def _stays_clear(impact: Impact, x: Array, gap: Array, velocity: Array, energy: float) -> bool:
     """Whether no point can come back to where a wall stands, or would stand if it went on."""
-    half = x[0] >= 0.0
     free = gap - 0.5 * impact.relative_curvature * (x - impact.first_touch) ** 2  # zero for an unstrained beam at rest
-    distance, tilt = _rigid(x, free, half)
-    speed, spin = _rigid(x, -velocity, half)
+    distance, tilt = _rigid(x, free)
+    speed, spin = _rigid(x, -velocity)
     mass = impact.mass_per_length * impact.length
     rigid = 0.5 * mass * (speed**2 + spin**2 * impact.length**2 / 12.0)
     elastic = max(energy - rigid, 0.0)
@@ -143,8 +142,8 @@ class Separation:
         return over and _is_off(self.impact, time - self.since, state)
 
 
-def _rigid(x: Array, field: Array, half: bool) -> tuple[float, float]:
+def _rigid(x: Array, field: Array) -> tuple[float, float]:
     """Mean and slope of the straight line nearest to a field along the beam (slope 0 of a half)."""
     span = float(x[-1] - x[0])
     mean = float(np.trapezoid(field, x)) / span
-    return mean, 0.0 if half else 12.0 * float(np.trapezoid(field * x, x)) / span**3
+    return mean, 0.0 if x[0] >= 0.0 else 12.0 * float(np.trapezoid(field * x, x)) / span**3

@@ -62,11 +62,7 @@ def _residues(q: FloatArray) -> FloatArray:
     decay = np.exp((-1.0 + 1.0j) * (np.sqrt(2.0) * np.pi / _STEP) * root)
     # Res of order k: e^{−iq}(iq)^k q²/(4v³), v³ = q^{3/2}e^{3iπ/4}
     term = (-2.0j * np.pi * _FRONT * np.exp(-0.75j * np.pi)) * np.exp(-1.0j * q) * root * decay / (1.0 - decay)
-    result = np.empty((q.size, _ORDERS))
-    for k in range(_ORDERS):
-        result[:, k] = term.real
-        term = 1.0j * q * term
-    return result
+    return (term[:, None] * np.vander(1.0j * q, _ORDERS, increasing=True)).real
 
 
 def scaled_erfc(x: ArrayLike) -> ComplexArray:

@@ -2,12 +2,9 @@ r"""One point of an infinite beam stopped, with Kelvin and Voigt's damping: what
 
     μ y_tt + EI(y_xxxx + η y_txxxx) = −R(t)δ(x),   y(0,t) = V₀t in the free motion's frame
 
-κ/ν ≥ 1 at leading order (the thesis has η = 0 only). With s the Laplace variable and T = t/η
-
-    R ∝ (1 + ηs)^{1/4} s^{−1/2},     M(0) ∝ (1 + ηs)^{1/2}/s.
-
-Over their values at η = 0 the reaction (m = 0), the impulse and the reaction to an acceleration a₀ (m = 1), and the
-impulse by a₀ (m = 2) are
+κ/ν ≥ 1 at leading order (the thesis has η = 0 only). Of the Laplace variable s, R ∝ (1 + ηs)^{1/4} s^{−1/2} and
+M(0) ∝ (1 + ηs)^{1/2}/s. Over their values at η = 0 the reaction (m = 0), the impulse and the reaction to a constant
+acceleration a₀ (m = 1), and the impulse by a₀ (m = 2) at T = t/η are
 
     Γ(m + 1/2)/Γ(m + 1/4) T^{−1/4} ₁F₁(−1/4; m + 1/4; −T),      M/M₀ = e^{−T}/√(πT) + erf √T.
 

@@ -4,10 +4,9 @@ r"""What the theory says about an impact on a wall that gives way, SI units (`th
     λ_c(t) → λ₀√(ct) + (4EI/k)^{1/4} for κ/ν < 1                                 (docs/theory.md, section 9)
 
 while the force acts at λ₀√(ct). Impulse, force over a tenth of the time and place of the force come within 2 % of
-the rigid wall's. One point: after the later of 29 t_k and 14 (κ/ν)^{1/4} t_k, its impulse after half of that. A zone of
-κ/ν ≥ 0.35 and ζ ≥ ¼: after 200 t_k, its impulse after 40 t_k, and not before λ₀√(ct) is 4.2 ℓ_k. All of it is read off
-`theory.elastic_wall` (``python -m benchmarks.wall``). With less damping, or flatter, what the wall gives back stays in
-the impulse for thousands of t_k, and no time is given.
+the rigid wall's, the impulse in half of the time or less. When they do is read off `theory.elastic_wall`
+(``python -m benchmarks.wall``): the constants below. In a flatter zone, or with less damping, what the wall gives back
+stays in the impulse for thousands of t_k, and no time is given.
 """
 
 import math

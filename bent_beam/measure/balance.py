@@ -72,7 +72,7 @@ def balance_of(history: ImpactHistory) -> Balance:
         _residual(min(missing, key=_largest_late), history.array("total_impulse")) if missing else None,
         _second_moment(history, missing[0]) if missing else None,
         _points(history),
-        _law(history),
+        _beyond_total(history, float(history.array("law_impulse")[-1])) if "law_impulse" in history else None,
         _initial_energy(history),
         _gap_of_push(history),
         _penetration(history),
@@ -227,10 +227,6 @@ def _points(history: ImpactHistory) -> float | None:
     if "opposite_impulse" in history:
         found -= float(history.array("opposite_impulse", -1).sum())
     return _beyond_total(history, 2.0 / history.sides * found)
-
-
-def _law(history: ImpactHistory) -> float | None:
-    return _beyond_total(history, float(history.array("law_impulse")[-1])) if "law_impulse" in history else None
 
 
 def _beyond_total(history: ImpactHistory, found: float) -> float | None:

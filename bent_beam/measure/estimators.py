@@ -99,12 +99,7 @@ def leading_order(
     the error; without companions only the drift over the window measures it.
 
     The bar (:func:`bent_beam.measure.numbers.number_of`) holds the largest difference from a companion, the drift
-    (spread over the window and its parts), ``LEAST_LEADING`` of the value and the lift over V₀t, times
-    lift/``LIFTED`` where that is less than 1: impacts that throw the zone off the wall push it too hard, in the coarser
-    run just as much.
-    With Exudyn at κ/ν from 1/800 to 1/25 r₀ was 22, 21, 14, 6.5, 2.3 and 0.6 % too large where the zone lifted by 0.2,
-    0.2, 0.2, 0.07, 0.03 and 0.01 V₀t. Of λ₀ it is ``INSIDE`` of that: velocity-level laws at κ/ν = 0.06 lift the zone
-    by 0.03 to 0.14 V₀t, r₀ is 0.4 to 2.2 % too large and λ₀ 0.14 to 0.7 % too small.
+    (spread over the window and its parts), ``LEAST_LEADING`` of the value and the shares of :func:`lift_shares`.
 
     Raises ``ValueError`` when fewer than eight instants carry an impulse.
 
@@ -129,7 +124,11 @@ def leading_order(
 
 def lift_shares(lift: float) -> tuple[float, float]:
     """What a zone that its scheme has thrown off the wall by ``lift`` V₀t may be off by: shares of the push, r₀, and of
-    its place, λ₀ (:func:`leading_order`)."""
+    its place, λ₀. The impacts that throw it off push it too hard, in a coarser run just as much.
+
+    With Exudyn at κ/ν from 1/800 to 1/25 r₀ was 22, 21, 14, 6.5, 2.3 and 0.6 % too large where the zone lifted by 0.2,
+    0.2, 0.2, 0.07, 0.03 and 0.01 V₀t. Velocity-level laws at κ/ν = 0.06 lift it by 0.03 to 0.14 V₀t, r₀ is 0.4 to 2.2 %
+    too large and λ₀ 0.14 to 0.7 % too small."""
     lifted = min(lift / LIFTED, 1.0) * lift
     return lifted, INSIDE * lifted
 
