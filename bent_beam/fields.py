@@ -151,9 +151,7 @@ def describe(part: Any) -> dict[str, Any]:
 
 def made_from(part: type[T], values: Any, where: str, more: Iterable[str] = ()) -> T:
     """The dataclass ``part`` from the table ``values``; ``more``: further keys that the error for an unknown one names.
-
-    Raises :class:`InputError` for an unknown key (naming the nearest), a missing field, or a value that is refused.
-    """
+    Raises :class:`InputError` for an unknown key (naming the nearest), a missing field, or a value that is refused."""
     if not isinstance(values, Mapping):
         raise InputError(f"{where} must be a table (got {checks.shortened(values)})")
     fields = {key_of(field.name): field for field in dataclasses.fields(part) if field.init}  # type: ignore[arg-type]
@@ -184,10 +182,8 @@ def part_from_table(kinds: Mapping[str, type], table: Any, where: str) -> Any:
 
 
 def part_or_auto(kinds: Mapping[str, type], table: Any, where: str, default: str | None = None) -> Any:
-    """The same; ``None``, to be chosen, of an empty table or where the kind is "auto".
-
-    A kind that is left out is the ``default`` if it has all keys of the table, else the only kind that has them.
-    """
+    """The same; ``None``, to be chosen, of an empty table or where the kind is "auto". A kind that is left out is the
+    ``default`` if it has all keys of the table, else the only kind that has them."""
     if not isinstance(table, Mapping) or table.get("kind", "auto") != "auto":
         return part_from_table(kinds, table, where)
     keys = [key for key in table if key != "kind"]

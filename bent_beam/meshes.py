@@ -55,9 +55,7 @@ def checked_nodes(nodes: Array) -> Array:
 
 def snapped(nodes: Array, places: Iterable[float]) -> Array:
     """``nodes`` of the half beam with those nearest to ``places`` of either half, m from the middle, moved onto them.
-
-    Raises ``ValueError`` where the elements are too large to have a node at every place.
-    """
+    Raises ``ValueError`` where the elements are too large to have a node at every place."""
     moved, near, wanted = nodes.copy(), NEAR * nodes[-1], np.unique(np.abs([*places]))
     wanted = wanted[(wanted > near) & (wanted < nodes[-1] - near)]
     wanted = wanted[np.diff(wanted, prepend=-np.inf) > near]  # of both halves, but for round-off
@@ -138,11 +136,9 @@ def _grown(start: float, first: float, growth: float, end: float, largest: float
 
 @dataclass(frozen=True)
 class GradedMesh(_Mesh):
-    """Uniform elements over the contact zone, then each larger than the last (thesis 3.3.3).
-
-    The thesis lets elements grow by 1.25, which reflects: 1.02 is better. It caps their size at 10³ against
-    ill-conditioning, and has 25 elements in the zone (Table 3.2).
-    """
+    """Uniform elements over the contact zone, then each larger than the last (thesis 3.3.3). The thesis lets elements
+    grow by 1.25, which reflects: 1.02 is better. It caps their size at 10³ against ill-conditioning, and has 25
+    elements in the zone (Table 3.2)."""
 
     element_length: Length
     growth: Growth = 1.02

@@ -63,11 +63,9 @@ class Method(Protocol):
     def simulate(
         self, impact: Impact, *, end_time: float | None = None, save: Save = 200, progress: Progress | None = None
     ) -> ImpactHistory:
-        """Follow ``impact`` to ``end_time`` (s). ``save``: number of saved instants, or their times, s.
-
-        Raises :class:`bent_beam.InputError` for what it refuses, :class:`bent_beam.SimulationError` when it cannot
-        finish; any other error is a failure too.
-        """
+        """Follow ``impact`` to ``end_time`` (s). ``save``: number of saved instants, or their times, s. Raises
+        :class:`bent_beam.InputError` for what it refuses, :class:`bent_beam.SimulationError` when it cannot finish; any
+        other error is a failure too."""
 
 
 def chosen_for(method: M, impact: Impact, end_time: float) -> M:
@@ -227,11 +225,9 @@ def method_type(path: str) -> type[Any]:
 
 
 def method_from_tables(path: str, tables: Mapping[str, Any], *, label: str | None = None) -> Any:
-    """The method of a path from its tables: a part for each field in its ``PARTS``, plain values for the others.
-
-    A part's table whose ``kind`` is "auto" is left out: the method then chooses. Raises :class:`InputError` naming key
-    and value for what the method does not know or take.
-    """
+    """The method of a path from its tables: a part for each field in its ``PARTS``, plain values for the others. A
+    part's table whose ``kind`` is "auto" is left out: the method then chooses. Raises :class:`InputError` naming key
+    and value for what the method does not know or take."""
     kind = method_type(path)
     registries: Mapping[str, Mapping[str, type]] = getattr(kind, "PARTS", {})
     defaults: Mapping[str, str] = getattr(kind, "DEFAULT_KINDS", {})

@@ -76,10 +76,8 @@ _SERIES = {n: [(-1) ** m * factorial(2 * m + n) / (factorial(n) * factorial(m)) 
 
 
 def scaled_iterated_erfc(z: NDArray[np.complexfloating[Any, Any]]) -> tuple[ComplexArray, ...]:
-    """e^{z²} iⁿerfc(z) for n = 0…3, any shape, |arg z| ≤ π/2 where |z| > 12.
-
-    Absolute error 1e-13, on the ray z = TURN·x, x ≥ 0, of a wave that decays ahead of x 1e-14.
-    """
+    """e^{z²} iⁿerfc(z) for n = 0…3, any shape, |arg z| ≤ π/2 where |z| > 12. Absolute error 1e-13, on the ray
+    z = TURN·x, x ≥ 0, of a wave that decays ahead of x 1e-14."""
     zeroth = np.asarray(wofz(1j * z))
     first = 1.0 / np.sqrt(np.pi) - z * zeroth
     second = 0.25 * (zeroth - 2.0 * z * first)

@@ -35,10 +35,8 @@ from theory._fresnel import FloatArray
 @dataclass(frozen=True)
 class FlyingBar:
     """A bar flying at the wall at ``velocity`` > 0, its near end (x = 0) ``gap`` ≥ 0 away; any consistent units.
-
     ``stiffness`` is EA, ``mass_per_length`` μ; c = √(EA/μ). ``ValueError`` for an attribute out of its range, x off the
-    bar, a negative time.
-    """
+    bar, a negative time."""
 
     length: float = 1.0
     stiffness: float = 1.0

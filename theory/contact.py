@@ -149,12 +149,9 @@ _LAST_STEP = 1e-8
 
 
 def _lambda0(ratio: FloatArray) -> FloatArray:
-    """Root of (2.6.21) for 0 < κ/ν < 1.
-
-    In log λ the logarithm of (φ_ν − φ_κ)/φ_κ = ν/κ − 1 is nearly a straight line, of slope 1 for small
-    λ (√(2/π)λ) and 2 for large λ (λ²/2). Newton's method starts from the sum of the two limits, and neither
-    limit loses digits.
-    """
+    """Root of (2.6.21) for 0 < κ/ν < 1. In log λ the logarithm of (φ_ν − φ_κ)/φ_κ = ν/κ − 1 is nearly a straight line,
+    of slope 1 for small λ (√(2/π)λ) and 2 for large λ (λ²/2). Newton's method starts from the sum of the two limits,
+    and neither limit loses digits."""
     target = (1.0 - ratio) / ratio
     log_lam = np.log(2.0 * target / (_SLOPE + np.sqrt(_SLOPE**2 + 2.0 * target)))
     for _ in range(30):
@@ -217,11 +214,9 @@ def _detached(
 
 
 def _axial(at: phi.Argument, r0: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """(λ_N, r_N) of a spreading contact, the same in both regimes (docs/theory.md, "Axial force").
-
-    They are the answer to χ_N = −√(2/π)(r₀/λ₀)(1 − φ_p) of a beam without load, and 1/λ₀ on top of λ_N; for
-    small λ₀, where the two parts of λ_N cancel, the same written out.
-    """
+    """(λ_N, r_N) of a spreading contact, the same in both regimes (docs/theory.md, "Axial force"). They are the answer
+    to χ_N = −√(2/π)(r₀/λ₀)(1 − φ_p) of a beam without load, and 1/λ₀ on top of λ_N; for small λ₀, where the two parts
+    of λ_N cancel, the same written out."""
     slope, near = _SLOPE, at.near
     lambda_axial, r_axial = np.empty_like(r0), np.empty_like(r0)
     x, (a, b) = at.lam[near], at.integrals

@@ -240,10 +240,8 @@ def flat_limit(wall_damping_ratio: float) -> tuple[float, float]:
 
 @dataclass(frozen=True)
 class SharpLimit:
-    """As κ/ν → ∞, ζ = 0: f (κ/ν)^{1/8} = `value` + `correction` ν/κ, at `time` (κ/ν)^{1/4} t_k.
-
-    The largest penetration is `penetration` (κ/ν)^{1/4} V₀t_k. Error below 1e-5.
-    """
+    """As κ/ν → ∞, ζ = 0: f (κ/ν)^{1/8} = `value` + `correction` ν/κ, at `time` (κ/ν)^{1/4} t_k. The largest penetration
+    is `penetration` (κ/ν)^{1/4} V₀t_k. Error below 1e-5."""
 
     value: float
     correction: float

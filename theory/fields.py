@@ -92,11 +92,9 @@ class ImpactFields:
         return FieldValues(motion(x, t), motion(x, t, by_x=1), motion(x, t, by_x=2), motion(x, t, by_t=1))
 
     def fast_layer(self, xi: ArrayLike, tau: ArrayLike) -> FieldValues:
-        """η, η_ξ, η_ξξ, η_τ: what the reactions do to the beam; ξ and τ broadcast.
-
-        Before contact (τ = 0) all are 0. At ξ = ±λ_c the curvature of the first order jumps with the
-        expansion's O(ε²); at ξ = 0, discrete regime, η_ξξξ jumps but nothing returned here does.
-        """
+        """η, η_ξ, η_ξξ, η_τ: what the reactions do to the beam; ξ and τ broadcast. Before contact (τ = 0) all are 0. At
+        ξ = ±λ_c the curvature of the first order jumps with the expansion's O(ε²); at ξ = 0, discrete regime, η_ξξξ
+        jumps but nothing returned here does."""
         x, t = np.broadcast_arrays(_finite("xi", xi), self._times(tau))
         values = np.zeros((4, x.size))
         live = t.ravel() > 0.0
@@ -110,12 +108,9 @@ class ImpactFields:
         return self.slow_motion(xi, tau) - self.fast_layer(xi, tau)
 
     def complementarity_residual(self, a: ArrayLike, tau: ArrayLike) -> FloatArray:
-        """Beam deflection at ξ = aλ_c(τ), a ∈ [−1, 1]: 0 wherever there is contact.
-
-        That is the whole of [−1, 1] in the continuous regime (2.6.31–32), (2.7.41–42), a = ±1 in the
-        detached regime (2.7.44–45), and ξ = 0 in the discrete one. Up to the quadrature's tolerance at
-        ε = 0, O(ε²) at first order.
-        """
+        """Beam deflection at ξ = aλ_c(τ), a ∈ [−1, 1]: 0 wherever there is contact. That is the whole of [−1, 1] in the
+        continuous regime (2.6.31–32), (2.7.41–42), a = ±1 in the detached regime (2.7.44–45), and ξ = 0 in the discrete
+        one. Up to the quadrature's tolerance at ε = 0, O(ε²) at first order."""
         position, time = np.broadcast_arrays(_finite("a", a), self._times(tau))
         if np.any(np.abs(position) > 1.0):
             raise ValueError(f"a must lie in [-1, 1] (got {a!r})")
@@ -170,10 +165,8 @@ def _finite(name: str, values: ArrayLike) -> FloatArray:
 
 @dataclass(frozen=True)
 class _Path:
-    """The convolution integrals of n points, each on its own path in u, mapped to one t ∈ [0, 1].
-
-    Places x (n,) and, times the power of τ that makes them functions of x alone, λ₁, r₁, r̃ and n.
-    """
+    """The convolution integrals of n points, each on its own path in u, mapped to one t ∈ [0, 1]. Places x (n,) and,
+    times the power of τ that makes them functions of x alone, λ₁, r₁, r̃ and n."""
 
     x: FloatArray
     lambda0: float
@@ -193,11 +186,9 @@ class _Path:
 
     @cached_property
     def lowest(self) -> FloatArray:
-        """u where |β_−| is least: its zero behind the front, its stationary point ahead of it; β_+ grows from u = 0.
-
-        In y = tanh u these are roots of polynomials that change sign on [0, 1]; a bisection will do, for
-        the path may turn anywhere near.
-        """
+        """u where |β_−| is least: its zero behind the front, its stationary point ahead of it; β_+ grows from u = 0. In
+        y = tanh u these are roots of polynomials that change sign on [0, 1]; a bisection will do, for the path may turn
+        anywhere near."""
         low, high = np.zeros_like(self.x), np.full_like(self.x, np.tanh(_FARTHEST))
         for _ in range(40):
             y = 0.5 * (low + high)

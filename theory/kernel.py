@@ -32,11 +32,8 @@ _SPLIT = 2.0**27 + 1.0
 
 
 def _phase(beta: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """cos and sin of β²/4 with β² taken exactly.
-
-    Rounding β² alone would shift the phase by 3e-5 at β = 1e6: the rounded-off part of the square
-    (Dekker's product) is put back by the addition theorem.
-    """
+    """cos and sin of β²/4 with β² taken exactly. Rounding β² alone would shift the phase by 3e-5 at β = 1e6: the
+    rounded-off part of the square (Dekker's product) is put back by the addition theorem."""
     square = beta * beta
     high = _SPLIT * beta - (_SPLIT * beta - beta)
     low = beta - high

@@ -48,10 +48,8 @@ from theory.bars import placed
 @dataclass(frozen=True)
 class BouncingBall:
     """A ball of unit mass that starts at ``height`` ≥ 0 with ``velocity``, upwards positive; any consistent units.
-
     Relative error 1e-13. At an impact the values are those after it. ``ValueError`` for an attribute out of its range,
-    a start on the floor without an upward velocity, a negative time.
-    """
+    a start on the floor without an upward velocity, a negative time."""
 
     height: float = 1.0
     velocity: float = 0.0
@@ -139,10 +137,8 @@ class BouncingBall:
 
 
 class StringOnObstacle:
-    """A parabola of height 1 released above a flat obstacle; ``ValueError`` for x off [0, 1] or a negative time.
-
-    At an impact the velocity is that after it.
-    """
+    """A parabola of height 1 released above a flat obstacle; ``ValueError`` for x off [0, 1] or a negative time. At an
+    impact the velocity is that after it."""
 
     def displacement(self, x: ArrayLike, times: ArrayLike) -> FloatArray:
         """u(x,t) ≥ 0."""

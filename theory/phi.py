@@ -27,10 +27,8 @@ _ROOT_TWO_PI = np.sqrt(2.0 * np.pi)
 
 @dataclass(frozen=True)
 class Argument:
-    """λ ≥ 0 of shape (n,) with its Fresnel integrals and moments, computed once for any number of φ.
-
-    Every φ takes one in place of λ.
-    """
+    """λ ≥ 0 of shape (n,) with its Fresnel integrals and moments, computed once for any number of φ. Every φ takes one
+    in place of λ."""
 
     lam: FloatArray
     near: NDArray[np.bool_]

@@ -201,11 +201,9 @@ class _Bending:
     section: Section | None
 
     def peak(self, factor: float = 1.0) -> tuple[float, float]:
-        """Largest |M| (N m) and its place x/√(ct).
-
-        `factor` multiplies the moment at the contact of a damped point. Ahead of it this is an upper bound: the moment
-        there is 0.24 of that at the contact at first and 0.56 of it in the end, as without damping.
-        """
+        """Largest |M| (N m) and its place x/√(ct). `factor` multiplies the moment at the contact of a damped point.
+        Ahead of it this is an upper bound: the moment there is 0.24 of that at the contact at first and 0.56 of it in
+        the end, as without damping."""
         impact = self.impact
         unit = impact.moment_scale
         before = impact.bending_stiffness * (impact.unbent_curvature - impact.curvature)

@@ -39,10 +39,8 @@ def wave_amplitude(parameters: ContactParameters) -> ComplexArray:
 
 @dataclass(frozen=True)
 class SelfSimilarWave:
-    """η(ξ,τ) = τE(ξ/√τ) of one impact (scalar parameters) at leading order, any regime.
-
-    Fields are functions of x = ξ/√τ: η/τ, η_ξ/√τ, η_ξξ and η_τ. Absolute error below 1e-13 r₀.
-    """
+    """η(ξ,τ) = τE(ξ/√τ) of one impact (scalar parameters) at leading order, any regime. Fields are functions of
+    x = ξ/√τ: η/τ, η_ξ/√τ, η_ξξ and η_τ. Absolute error below 1e-13 r₀."""
 
     parameters: ContactParameters
 

@@ -70,12 +70,9 @@ class StoppedBeam:
         return self._evaluate(times, "moment")
 
     def release(self) -> Release:
-        """The first sign change of the reaction, relative error 1e-10.
-
-        Steps of an eighth of the shortest period still alive look for it; a dip between them that stays positive on
-        the grid is searched for its lowest point. ``ArithmeticError``: none before 20 T* (a beam so damped that it only
-        creeps).
-        """
+        """The first sign change of the reaction, relative error 1e-10. Steps of an eighth of the shortest period still
+        alive look for it; a dip between them that stays positive on the grid is searched for its lowest point.
+        ``ArithmeticError``: none before 20 T* (a beam so damped that it only creeps)."""
         from scipy.optimize import brentq, minimize_scalar  # slow to load
 
         def reaction(t: float) -> float:
@@ -97,10 +94,8 @@ class StoppedBeam:
 
     @property
     def _without_ends(self) -> float:
-        """Until then (T*) what has been at an end and back is below round-off.
-
-        An underdamped wave k = 1/t has e^{−ηk⁴t/2} ≤ e^{−100} left, an overdamped one e^{−¾(ηt)^{−1/3}} ≤ e^{−59}.
-        """
+        """Until then (T*) what has been at an end and back is below round-off. An underdamped wave k = 1/t has
+        e^{−ηk⁴t/2} ≤ e^{−100} left, an overdamped one e^{−¾(ηt)^{−1/3}} ≤ e^{−59}."""
         return float(min((self.damping / 200.0) ** (1.0 / 3.0), 2e-6 / self.damping))
 
     def _scan(self, start: float) -> FloatArray:

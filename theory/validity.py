@@ -56,10 +56,8 @@ SECTION = "section"
 @dataclass(frozen=True)
 class Validity:
     """The theory holds for `valid_from` ≤ t ≤ `valid_until` (s), which `limited_by` ends. Never: `valid_until` = 0.
-
-    `valid_after` names what spoils it before `valid_from` (None: it holds from the first instant). The force, a
-    mean over a tenth of the time before and after, holds until `force_until` alone: then waves from the ends swing it.
-    """
+    `valid_after` names what spoils it before `valid_from` (None: it holds from the first instant). The force, a mean
+    over a tenth of the time before and after, holds until `force_until` alone: then waves from the ends swing it."""
 
     valid_from: float
     valid_until: float
@@ -160,11 +158,8 @@ def _until_second_order(first: float, second: float) -> float:
 
 
 def _second_order(p: ContactParameters) -> tuple[float, float, float]:
-    """λ₂, r₂ and the rate of the curvature.
-
-    As κ → 0 relative changes depend on α, χ/κ, ψ/κ² and κn alone, so that a flatter contact is one of
-    κ = `FLATTEST_SOLVED` with other loads, but for a relative error of order κ.
-    """
+    """λ₂, r₂ and the rate of the curvature. As κ → 0 relative changes depend on α, χ/κ, ψ/κ² and κn alone, so that a
+    flatter contact is one of κ = `FLATTEST_SOLVED` with other loads, but for a relative error of order κ."""
     if p.kappa_over_nu >= FLATTEST_SOLVED:
         second = second_order(p)
         return second.lambda2, second.r2, second.opening

@@ -66,10 +66,8 @@ class WallPrediction:
 
 def zone_offset(kappa_over_nu: float, shear: float = 0.0) -> float:
     """What an elastic wall adds to the half contact length of a rigid one in the end, (EI/k)^{1/4}; 0 for one point.
-
     Behind the rim a beam on springs is pressed by e^{−ay} sin by, a² + b² = 1, 4a² = 2 + s², ``shear`` s = l_s/ℓ_k: its
-    force acts 2a behind the rim, that of a rigid wall s.
-    """
+    force acts 2a behind the rim, that of a rigid wall s."""
     return math.hypot(math.sqrt(2.0), shear) - shear if kappa_over_nu < 1.0 else 0.0
 
 

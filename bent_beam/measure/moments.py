@@ -34,8 +34,7 @@ class Moments:
     """A history reduced to what the estimators need, in fast-layer units, each of shape (times,).
 
     tau; impulse I(τ) and first moment J(τ) of one side's concentrated reaction; pressure p(τ), the uniform reaction
-    (where it was not taken out, what the zone bears of I); front λ_c(τ); lift, as of :func:`lift`.
-    """
+    (where it was not taken out, what the zone bears of I); front λ_c(τ); lift, as of :func:`lift`."""
 
     tau: Array
     impulse: Array
@@ -201,10 +200,9 @@ def first_front(history: ImpactHistory, time: float) -> tuple[float, float]:
 
 
 def _zone_end(history: ImpactHistory, first: int, k: int) -> float:
-    """The centroid, m, of what was pushed between two saved instants, less what the zone behind the front bears.
-
-    Within :data:`ZONE` of where the front was at first, what was pushed is summed; the rest of the zone is taken to
-    bear as much per length. Nothing is assumed of a zone that damping or its start keeps off the wall."""
+    """The centroid, m, of what was pushed between two saved instants, less what the zone behind the front bears. Within
+    :data:`ZONE` of where the front was at first, what was pushed is summed; the rest of the zone is taken to bear as
+    much per length. Nothing is assumed of a zone that damping or its start keeps off the wall."""
     share = ZONE * float(_carried(1.0, history.time[k], history.time[first]))  # the front at first over the centroid
     pushed = history.array("impulse", k) - history.array("impulse", first)
     places = np.abs(history.contact_positions(k))

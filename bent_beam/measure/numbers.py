@@ -20,11 +20,8 @@ LARGE, SMALL = 1e6, 1e-4  # beyond, numbers are written with a power of ten
 @dataclass(frozen=True)
 class Number:
     """``value`` ± ``bar`` in ``unit``, next to ``theory``. The bar is about two standard deviations, systematic part
-    included: the sum of its ``parts``, by cause, where they are known.
-
-    Each is ``None`` where it does not exist, never 0 in its place. In JSON: ``{"value": …, "error": …, "theory": …}``,
-    the error being the bar.
-    """
+    included: the sum of its ``parts``, by cause, where they are known. Each is ``None`` where it does not exist, never
+    0 in its place. In JSON: ``{"value": …, "error": …, "theory": …}``, the error being the bar."""
 
     value: float | None = None
     bar: float | None = None
