@@ -125,7 +125,7 @@ class Separation:
     which its largest stress may still come, and is off the wall for good."""
 
     def __init__(self, impact: Impact) -> None:
-        self.impact = impact
+        self.impact, self.period = impact, LOWEST_PERIOD * impact.slow_time_scale
         self.impulse = self.since = 0.0
 
     def __call__(self, time: float, impulse: float, state: Callable[[], State], *, closed: bool = False) -> bool:
@@ -138,7 +138,7 @@ class Separation:
         if closed or impulse > self.impulse:
             self.impulse, self.since = impulse, time
             return False
-        over = impulse != 0.0 and time - self.since >= LOWEST_PERIOD * self.impact.slow_time_scale
+        over = impulse != 0.0 and time - self.since >= self.period
         return over and _is_off(self.impact, time - self.since, state)
 
 

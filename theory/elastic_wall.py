@@ -152,21 +152,17 @@ def wall_history(
     x = dx * np.arange(cells + 1)
     time: FloatArray = dt * np.arange(steps + 1.0)
     of_place, of_velocity = (_responses(cells, dx, steps, dt, m) for m in (1, 0))
+    twice = 2.0 * wall_damping_ratio
+    responses = np.stack([of_place, of_place + twice * of_velocity], axis=1)  # of the penetration, of the pressure
     spectra = np.zeros((steps + 1, 2 * cells + 1))  # of the loads, which are even in x
     loads, rows = np.zeros(cells + 1), np.zeros((steps + 1, 4))
-    rows[0, 3] = 2.0 * wall_damping_ratio  # a dashpot pushes at once
-
-    def evenly(spectrum: FloatArray) -> FloatArray:
-        return np.asarray(scipy.fft.irfft(spectrum, 4 * cells)[: cells + 1])
-
+    rows[0, 3] = twice  # a dashpot pushes at once
     for n in range(1, steps + 1):
-        past = slice(n - 1, 0, -1)
-        displacement, velocity = (np.einsum("ij,ij->j", g[past], spectra[1:n]) for g in (of_place, of_velocity))
+        free = time[n] + np.array([[0.0], [twice]]) - kappa_over_nu * x**2 / 2.0
+        past = np.einsum("ikj,ij->kj", responses[n - 1 : 0 : -1], spectra[1:n])
         spectra[n] = 2.0 * spectra[n - 1] - spectra[max(n - 2, 0)]
         for _ in range(_MOST_ITERATIONS):
-            p = time[n] - kappa_over_nu * x**2 / 2.0 - evenly(displacement + of_place[0] * spectra[n])
-            rate = 1.0 - evenly(velocity + of_velocity[0] * spectra[n])
-            pressure = p + 2.0 * wall_damping_ratio * rate
+            p, pressure = free - scipy.fft.irfft(past + responses[0] * spectra[n], 4 * cells)[:, : cells + 1]
             before, (loads, force, rim) = loads, _loads(p, pressure, dx)
             spectra[n] = scipy.fft.rfft(np.concatenate([loads, np.zeros(2 * cells - 1), loads[:0:-1]])).real
             if np.abs(loads - before).max() <= _SETTLED * (1.0 + force):
@@ -201,14 +197,11 @@ def _integrals(x: FloatArray, t: FloatArray, m: int) -> FloatArray:
 
 def _loads(p: FloatArray, pressure: FloatArray, dx: float) -> tuple[FloatArray, float, float]:
     """Loads of the points, force on the whole zone and its rim; p and pressure are linear between points."""
-    low, high = np.zeros(p.size - 1), np.ones(p.size - 1)
-    for a, b in ((p[:-1], p[1:]), (pressure[:-1], pressure[1:])):
-        with np.errstate(divide="ignore", invalid="ignore"):
-            crossing = a / (a - b)
-        low = np.where((a <= 0.0) & (b > 0.0), np.maximum(low, crossing), low)
-        high = np.where((a > 0.0) & (b <= 0.0), np.minimum(high, crossing), high)
-        high = np.where((a <= 0.0) & (b <= 0.0), 0.0, high)
-    high = np.maximum(low, high)
+    both = np.array([p, pressure])
+    a, b = both[:, :-1], both[:, 1:]
+    crossing = a / np.where(a == b, 1.0, a - b)
+    low = np.where((a <= 0.0) & (b > 0.0), crossing, 0.0).max(axis=0)
+    high = np.maximum(low, np.where(b > 0.0, 1.0, np.where(a > 0.0, crossing, 0.0)).min(axis=0))
     start, slope = pressure[:-1], np.diff(pressure)
     total = dx * (start * (high - low) + slope * (high**2 - low**2) / 2.0)
     right = dx * (start * (high**2 - low**2) / 2.0 + slope * (high**3 - low**3) / 3.0)

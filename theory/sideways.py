@@ -76,8 +76,7 @@ def sideways(
     prediction = predict(impact, times)
     sticks_at = _sticks_at(impact, prediction, surface_speed / friction)
     ratio = surface_speed / impact.velocity if sticks_at == 0.0 else friction
-    # a beam that slides is no longer what was predicted once it sticks
-    last = sticks_at if sticks_at else math.inf
+    last = sticks_at or math.inf  # a beam that slides is no longer what was predicted once it sticks
     rows = tuple(
         SidewaysAtTime(
             time=row.time,

@@ -72,7 +72,7 @@ def balance_of(history: ImpactHistory) -> Balance:
         _residual(min(missing, key=_largest_late), history.array("total_impulse")) if missing else None,
         _second_moment(history, missing[0]) if missing else None,
         _points(history),
-        _beyond_total(history, float(history.array("law_impulse")[-1])) if "law_impulse" in history else None,
+        _beyond_total(history, float(history.array("law_impulse", -1))) if "law_impulse" in history else None,
         _initial_energy(history),
         _gap_of_push(history),
         _penetration(history),

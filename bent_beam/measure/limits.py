@@ -56,20 +56,15 @@ SAYS = {
 
 def limited_as(history: ImpactHistory) -> str:
     """The key of ``LIMITS`` for a run: its path or a kind of its runs, and what makes the limits wider."""
-    contact = history.settings.get("contact")
+    path, contact, integrator = history.path, history.settings.get("contact"), history.settings.get("integrator")
+    if path == "exudyn" and isinstance(integrator, dict):
+        if integrator.get("kind") not in IMPLICIT or integrator.get("spectral_radius", 0.5) > 0.5:
+            path = "exudyn, explicit or ρ∞ > ½"
+        elif history.impact.axial_force:
+            path = "exudyn, axial force"
     if isinstance(contact, dict) and contact.get("kind") == "SegmentFriction":
-        return f"{_by_integrator(history)}, segments"
-    return _by_integrator(history) + (", shear" if history.impact.shear_stiffness is not None else "")
-
-
-def _by_integrator(history: ImpactHistory) -> str:
-    integrator = history.settings.get("integrator")
-    if history.path != "exudyn" or not isinstance(integrator, dict):
-        return history.path
-    sound = integrator.get("kind") in IMPLICIT and integrator.get("spectral_radius", 0.5) <= 0.5
-    if not sound:
-        return "exudyn, explicit or ρ∞ > ½"
-    return "exudyn, axial force" if history.impact.axial_force else "exudyn"
+        return f"{path}, segments"
+    return path if history.impact.shear_stiffness is None else f"{path}, shear"
 
 
 def beyond_limits(path: str, checks: Any) -> list[str]:
