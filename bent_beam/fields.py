@@ -91,9 +91,6 @@ class Quantity:
         return number if self.least is None else checks.at_least(name, value, self.least)
 
 
-PLAIN = Quantity("", "")
-
-
 @cache
 def declared(part: type) -> dict[str, Declared]:
     """The fields of a dataclass that may be given, by name."""
@@ -105,10 +102,10 @@ def declared(part: type) -> dict[str, Declared]:
 
 
 def _declared(hint: Any) -> Declared:
-    quantity = PLAIN
+    quantity = Quantity("", "")
     if get_origin(hint) is Annotated:
         hint, *said = get_args(hint)
-        quantity = next((one for one in said if isinstance(one, Quantity)), PLAIN)
+        quantity = next((one for one in said if isinstance(one, Quantity)), quantity)
     kinds = get_args(hint) if get_origin(hint) in (Union, types.UnionType) else (hint,)
     plain = [kind for kind in kinds if kind is not types.NoneType]
     kind = plain[0] if len(plain) == 1 else None

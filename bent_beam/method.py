@@ -144,10 +144,8 @@ def time_on_wall(impact: Impact) -> float:
 def separation_times(impact: Impact, longest: float | None = None, save: int = 2000) -> NDArray[np.float64]:
     """Saved instants, s, of a run until separation: ``save`` to a T*, evenly, up to ``longest``, s. By default that is
     8 T*, and before a soft wall :data:`ON_WALL` times :func:`time_on_wall`, but 100 T* at most, late instants being
-    fewer.
-
-    Raises ``ValueError`` between two walls, or where supports bring the beam back: no separation is then the last.
-    """
+    fewer. Raises ``ValueError`` between two walls, or where supports bring the beam back: no separation is then the
+    last."""
     if impact.supported and {impact.left_end, impact.right_end} != {"hinged", "free"}:
         raise InputError(
             f"left_end {impact.left_end!r}, right_end {impact.right_end!r}: supports bring the beam back, and no "

@@ -127,9 +127,8 @@ def pull_of(history: ImpactHistory) -> float | None:
 
 def peak_moment(history: ImpactHistory, until: float | None = None, since: int = 0) -> PeakMoment:
     """The largest bending moment anywhere, and in the middle, up to ``until`` (s; ``None``: the last instant), after
-    the saved instant ``since``: of all steps where a history has them, otherwise at the saved instants.
-
-    The first instants of all steps are left out: the first touch of a mesh bends it the more the stiffer its contact is
+    the saved instant ``since``: of all steps where a history has them, otherwise at the saved instants. The first
+    instants of all steps are left out: the first touch of a mesh bends it the more the stiffer its contact is
     (κ/ν = 2.5: 1.42 V₀√(EIμ) on every mesh, where the beam has 1)."""
     count = _instants(history, until)
     told = all(name in history for name in ("largest_moment", "largest_moment_place", "largest_midspan_moment"))
