@@ -216,14 +216,45 @@ class Scales(Part):
         """Sum of all loads over L, N/m: μ times the acceleration of the centre of mass without a wall."""
         return self.load_within(self.half_length) / self.length
 
-    epsilon_alpha = property(lambda self: self.group("acceleration"), doc="εα/ν = a₀ t*/V₀.")
-    epsilon_chi = property(lambda self: self.group("curvature_rate"), doc="εχ/ν = c₀ l*²/V₀.")
-    epsilon_psi = property(lambda self: self.group("fourth_derivative"), doc="εψ/ν = q₀ l*⁴/(V₀ t*).")
-    epsilon_axial = property(lambda self: self.group("axial_force"), doc="n = N/(μV₀²).")
-    alpha = property(lambda self: self.epsilon_alpha / self.epsilon, doc="α with ν = 1.")
-    chi = property(lambda self: self.epsilon_chi / self.epsilon, doc="χ with ν = 1.")
-    psi = property(lambda self: self.epsilon_psi / self.epsilon, doc="ψ with ν = 1.")
-    axial = property(lambda self: self.epsilon_axial / self.epsilon, doc="n/ε with ν = 1, next to α, ψ, χ.")
+    @property
+    def epsilon_alpha(self) -> float:
+        """εα/ν = a₀ t*/V₀."""
+        return self.group("acceleration")
+
+    @property
+    def epsilon_chi(self) -> float:
+        """εχ/ν = c₀ l*²/V₀."""
+        return self.group("curvature_rate")
+
+    @property
+    def epsilon_psi(self) -> float:
+        """εψ/ν = q₀ l*⁴/(V₀ t*)."""
+        return self.group("fourth_derivative")
+
+    @property
+    def epsilon_axial(self) -> float:
+        """n = N/(μV₀²)."""
+        return self.group("axial_force")
+
+    @property
+    def alpha(self) -> float:
+        """α with ν = 1."""
+        return self.epsilon_alpha / self.epsilon
+
+    @property
+    def chi(self) -> float:
+        """χ with ν = 1."""
+        return self.epsilon_chi / self.epsilon
+
+    @property
+    def psi(self) -> float:
+        """ψ with ν = 1."""
+        return self.epsilon_psi / self.epsilon
+
+    @property
+    def axial(self) -> float:
+        """n/ε with ν = 1, next to α, ψ, χ."""
+        return self.epsilon_axial / self.epsilon
 
     @property
     def loaded_to_first_order(self) -> bool:
