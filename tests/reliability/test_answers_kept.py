@@ -16,13 +16,12 @@ from strangers import Plain, Unlabelled
 
 from bent_beam import method as methods
 from bent_beam.measure.reduction import peak_moment
-from comparison import store as store_module
 from comparison.command_line import __main__ as start
 from comparison.command_line import app, histories
 from comparison.command_line.options import emit
 from comparison.matching import PERTURBATION, match
 from comparison.rows import MatchQuestion, first_order_epsilon
-from comparison.store import RunStore, code_of, source_of
+from comparison.store import RunStore, code_of, source_digest, source_of
 from hermite_fe import HermiteFE
 from hermite_fe.contacts import NodeContact
 
@@ -88,15 +87,8 @@ def test_a_closed_standard_stream_is_no_file_that_is_opened_later(number):
 
 
 def test_an_interrupt_before_anything_has_begun_is_one_line(monkeypatch, capsys):
-    class Interrupted:
-        def find_spec(self, name, *_):
-            if name == "comparison.command_line.app":
-                raise KeyboardInterrupt
-
-    monkeypatch.delitem(sys.modules, "comparison.command_line.app")
-    monkeypatch.delattr("comparison.command_line.app")
-    monkeypatch.setattr(sys, "meta_path", [Interrupted(), *sys.meta_path])
-    with pytest.raises(SystemExit, match="130"):
+    with pytest.raises(SystemExit, match="130"), monkeypatch.context() as interrupted:
+        interrupted.setattr("builtins.__import__", Mock(side_effect=KeyboardInterrupt))
         start.main()
     assert capsys.readouterr().err == "error: interrupted; nothing had begun\n"
 
@@ -135,20 +127,16 @@ def test_runs_with_parts_that_neither_the_project_nor_a_package_brought_are_not_
 
 
 def test_sources_edited_while_a_process_is_open_are_nobody_elses(monkeypatch):
+    today, *_ = source_digest().split()
     monkeypatch.setattr("comparison.store.LOADED", 0.0)
-    before = store_module.source_digest()
-    store_module.source_digest.cache_clear()
-    found = store_module.source_digest()
-    store_module.source_digest.cache_clear()
-    assert found.startswith(before.split()[0]) and str(os.getpid()) in found
+    found = source_digest.__wrapped__()
+    assert found.startswith(today) and str(os.getpid()) in found
 
 
 def test_a_program_that_does_not_load_costs_its_own_command(monkeypatch, capsys):
     broken = SimpleNamespace(name="theirs", load=lambda: importlib.import_module("no_such_module"))
     monkeypatch.setattr(app.metadata, "entry_points", lambda group: [broken])
-    app.add_programs.cache_clear()
-    app.add_programs()
-    app.add_programs.cache_clear()
+    app.add_programs.__wrapped__()
     assert "'theirs' is installed but does not load (ModuleNotFoundError" in capsys.readouterr().err
 
 
