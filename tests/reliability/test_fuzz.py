@@ -10,6 +10,7 @@ from pathlib import Path
 from unittest import mock
 
 import called
+import pytest
 from here import FUZZ, SEED
 from hypothesis import given, seed, settings
 from hypothesis import strategies as st
@@ -26,16 +27,9 @@ def fuzz(quick, long):
     return lambda test: settings(max_examples=long if FUZZ else quick)(seed(int(SEED))(test))
 
 
-class Hang(BaseException):
-    """Not an Exception, so that nothing on the way catches it."""
-
-
-def ring(*_):
-    raise Hang
-
-
 def command(*arguments):
-    signal.signal(signal.SIGALRM, ring)
+    """What pytest fails with is no Exception: nothing on the way catches it."""
+    signal.signal(signal.SIGALRM, lambda *_: pytest.fail("it hangs"))
     signal.alarm(LIMIT)
     try:
         return called.command(*arguments)
