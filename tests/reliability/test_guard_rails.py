@@ -34,7 +34,6 @@ DAMPED = "beam.curvature=0.1 beam.damping=0.01"  # η = 0.01 t*: bending runs 0.
         ("exudyn", UNIFORM + "0.02", 0.4, "reflected"),
         ("exudyn", UNIFORM + "1.0", 20.0, "holds 0.3 elements at the end time"),  # √(κ/ν · 2T) m
         ("exudyn", "mesh.kind=graded mesh.element_length=0.02 mesh.growth=1.25", 20.0, "grows by 25%"),
-        ("exudyn", UNIFORM + "1.0 exudyn.integrator.time_step=1.0", 20.0, "time steps of 1 end_time"),
         ("exudyn", f"{BENT} exudyn.geometry.kind=linear exudyn.geometry.amplitude=1e-3", 10.0, "linear range"),
         ("hermite", f"{DAMPED} {UNIFORM}0.1", 20.0, "lifts off the wall"),
     ],

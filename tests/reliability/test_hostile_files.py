@@ -190,17 +190,11 @@ def test_unreadable_case_files_are_refused(kind, tmp_path):
     assert "error: case file" in refused("predict", file, "--json")
 
 
-@pytest.mark.parametrize("table", ["hermite.mesh", "beam", "section", "nonsense"])
+@pytest.mark.parametrize("table", ["beam.damping", "hermite.mesh", "nonsense"])
 def test_tables_nested_without_end_are_refused_in_one_line(table, tmp_path):
     """Two thousand tables in each other take no bracket: a.a.a… = 1."""
-    deep = f"{'a.' * 2000}b = 1\n"
-    for name, text, *words in (
-        ("case.toml", f"[{table}]\n{deep}", "predict"),
-        ("more.toml", f"{CASE}[{table}]\n{deep}", "simulate"),
-        ("methods.toml", f'[[method]]\npath = "hermite"\n{deep}', "match", "--methods"),
-    ):
-        (tmp_path / name).write_text(text)
-        refused(*words, tmp_path / name)
+    (tmp_path / "case.toml").write_text(f"{CASE}[{table}]\n{'a.' * 2000}b = 1\n")
+    refused("simulate", tmp_path / "case.toml")
 
 
 EVIL = "\x1b]0;x\x07\x9b31m\u202e<script>alert(1)<|script>"
