@@ -3,9 +3,6 @@
 python -m benchmarks [startup theory exudyn steps waits] [--out DIR]
 """
 
-# What the room measures: speed (this command; scale, scipy_solver), whether bars, balances and tests hold what they
-# promise (coverage, beams, balances, faults), and numbers that others use (stored; shear and wall, whose constants the
-# theory's range has; figures of the docs).
 import argparse
 import sys
 import time

@@ -121,14 +121,14 @@ def room_of(file: str) -> str:
     return next(room for room in sorted(ABOVE, reverse=True) if file.startswith(f"{room}/"))
 
 
-def main(words: Sequence[str] | None = None) -> int:
+def main() -> int:
     """Draw, break, test; 1 where a fault is unseen."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--each", type=int, default=30, help="faults of each room")
     parser.add_argument("--room", choices=ABOVE, action="append", help="this one alone; may be repeated")
     parser.add_argument("--put", nargs=3, metavar=("FILE", "OLD", "NEW"), action="append", help="this one instead")
     parser.add_argument("--seed", type=int, default=time.time_ns() % 2**31, help="the clock's unless given")
-    asked = parser.parse_args(words)
+    asked = parser.parse_args()
     print(f"seed {asked.seed}", flush=True)
     of_rooms = [] if asked.put else [drawn(room, asked.each, asked.seed) for room in asked.room or ABOVE]
     # a room at a time, in turn: a drawing that is stopped is one of every room
