@@ -1,17 +1,14 @@
 """Time and memory of a run against nodes, steps and saved instants, and of a sweep against its rows.
 
-    python -m benchmarks.scale [--out benchmarks/results/scale.json]
-
-Every row is a process of its own, whose largest resident memory the system tells. Prints the tables of docs/scale.md.
+Every row is a process of its own, whose largest resident memory the system tells. ``python -m benchmarks.scale`` prints
+the tables of docs/scale.md and keeps them in ``benchmarks/results``.
 """
 
-import argparse
 import contextlib
 import multiprocessing
 import sys
 import time
 from concurrent.futures import ProcessPoolExecutor
-from pathlib import Path
 from typing import Any
 
 from benchmarks.record import RESULTS, keep
@@ -101,6 +98,4 @@ def measure() -> list[Found]:
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--out", type=Path, default=RESULTS / "scale.json")
-    keep(parser.parse_args().out, measure())
+    keep(RESULTS / "scale.json", measure())

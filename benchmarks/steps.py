@@ -66,6 +66,5 @@ def measure() -> Iterator[Row]:
                 seconds.append(float(f"{shortest:.3g}"))
             about = {"nodes": sizes, "ratio": ratios, "seconds": seconds}
             yield Row(f"{label} / plain LDLᵀ", max(ratios), goal, about=about)
-            slope = exponent(sizes, ratios)
-            if slope is not None:
+            if (slope := exponent(sizes, ratios)) is not None:
                 yield Row(f"{label}: exponent", slope, None)

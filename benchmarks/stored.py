@@ -33,11 +33,6 @@ class Numbers:
     confirm: str | None = None
     waits_for: tuple[str, ...] = ()
 
-    @property
-    def stale(self) -> bool:
-        """Whether code or settings of one of the files are others today."""
-        return any(is_stale(ROOT / PROGRAMS / file) for file in self.files)
-
 
 BOUNCES, STUDIES = f"-m {BENCHMARK}.bounce_reference", f"-m {THESIS}.stored_studies"
 DRAWN = (f"-m comparison.command_line gallery --out {GALLERY} --jobs {{jobs}}", f"-m {THESIS}.stored_numbers {GALLERY}")
@@ -62,7 +57,7 @@ def bring_up_to_date(numbers: Numbers, *, renew: bool, jobs: int) -> bool:
     """Confirm or renew ``numbers``, and say what is done; whether they are fresh now."""
     began = time.perf_counter()
     after = f", after {' and '.join(numbers.waits_for)}" if numbers.waits_for else ""
-    if not (renew or numbers.stale):
+    if not (renew or any(is_stale(ROOT / PROGRAMS / file) for file in numbers.files)):
         print(f"{numbers.name}: fresh", flush=True)
         return True
     print(f"{numbers.name}: {'made anew' if renew or not numbers.confirm else 'a sample first'}{after} …", flush=True)

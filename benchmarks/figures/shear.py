@@ -7,7 +7,6 @@ impulse and moment the theory has exactly, on both paths.
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
@@ -17,8 +16,6 @@ from bent_beam.method import method_from_tables
 from comparison.bouncing import bounce
 from comparison.figures import style
 from theory.shear import StoppedPoint
-
-FloatArray = NDArray[np.float64]
 
 RATIO, DAMPING = 0.2, 3e-3  # κ_sG/E of a pipe, η/T*
 KAPPAS = (0.5, 2.0)
@@ -98,7 +95,7 @@ def stopped_run(path: str, element: float, end: float = 33.0) -> ImpactHistory:
     return method.simulate(impact, end_time=end, save=np.geomspace(0.8, end, 121))
 
 
-def over_theory(history: ImpactHistory, name: str) -> FloatArray:
+def over_theory(history: ImpactHistory, name: str) -> np.ndarray:
     """Impulse, or moment under the point, over the theory's; 1 at t = 0."""
     point, time = StoppedPoint(RATIO), history.time[1:]
     found, theory = history.array("total_impulse"), point.impulse(time)
