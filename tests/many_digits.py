@@ -4,7 +4,6 @@ from collections.abc import Callable
 
 import mpmath as mp
 
-PI = mp.pi
 with mp.workdps(130):
     ROOT = mp.sqrt(2 * mp.pi)
     Q2 = mp.sqrt(2 / mp.pi)
@@ -13,7 +12,7 @@ with mp.workdps(130):
 CLOSED: dict[str, Callable[[mp.mpf], tuple[mp.mpf, mp.mpf, mp.mpf]]] = {
     "phi_nu": lambda x: (1, 0, 0),
     "phi_kappa": lambda x: (0, 1, 0),
-    "phi_p": lambda x: (mp.sqrt(PI / 8) * x, 0, 0),
+    "phi_p": lambda x: (mp.sqrt(mp.pi / 8) * x, 0, 0),
     "phi_pdot": lambda x: (0, x, 0),
     "phi_alpha": lambda x: (1, -(x**2) / 2, 0),
     "phi_lambda": lambda x: (x**4 / 8, 3 * x**2 / 4, -(x**3) / 2 / ROOT),
@@ -23,7 +22,7 @@ CLOSED: dict[str, Callable[[mp.mpf], tuple[mp.mpf, mp.mpf, mp.mpf]]] = {
     "phi_r": lambda x: (x**3 * (x**4 - 84) / 192, x * (3 * x**4 - 44) / 32, -(x**2) * (x**4 - 60) / 48 / ROOT),
     "phi_s": lambda x: (x**2 * (36 - x**4) / 48, (4 - x**4) / 4, x * (x**4 - 24) / 12 / ROOT),
     "phi_t": lambda x: (x**3 / 3, x * (12 - x**4) / 24, -(x**2) / ROOT),
-    "one_minus_phi_p": lambda x: (-mp.sqrt(PI / 8) * x, 0, 1),
+    "one_minus_phi_p": lambda x: (-mp.sqrt(mp.pi / 8) * x, 0, 1),
     "phi_nu_minus_kappa": lambda x: (1, -1, 0),
     "phi_r_plus_lambda_phi_kappa": lambda x: tuple(map(mp.fadd, CLOSED["phi_r"](x), (0, x, 0))),
     "phi_kappa_minus_s": lambda x: (-(x**2) * (36 - x**4) / 48, x**4 / 4, -x * (x**4 - 24) / 12 / ROOT),

@@ -112,11 +112,10 @@ def test_two_histories_of_one_name_are_two_pictures(monkeypatch):
 
 def test_runs_with_parts_that_neither_the_project_nor_a_package_brought_are_not_kept(tmp_path, monkeypatch):
     """Which files they depend on nobody knows: helpers without a package, or named like a standard module."""
-    (tmp_path / "somebodys").mkdir()
     law = "from hermite_fe.contacts import NodeContact\nclass Soft(NodeContact):\n    pass\n"
-    (tmp_path / "somebodys/law.py").write_text(law)
+    (tmp_path / "own_law.py").write_text(law)
     monkeypatch.syspath_prepend(tmp_path)
-    soft = importlib.import_module("somebodys.law").Soft()
+    soft = importlib.import_module("own_law").Soft()
     assert source_of(HermiteFE()) == source_of(HermiteFE(contact=NodeContact())) == "hermite_fe.method.HermiteFE"
     assert source_of(HermiteFE(contact=soft)) is None
     store, count = RunStore(tmp_path / "store"), iter(range(9))
