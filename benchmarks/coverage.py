@@ -81,8 +81,8 @@ def draw(random: np.random.Generator) -> Draw:
     """One row of the distribution above."""
     kappa, duration = log_uniform(random, 0.05, 0.95), log_uniform(random, 0.01, 1.0)
     path = str(random.choice(["hermite"] * 8 + ["self_similar", "exudyn"]))
-    tables = {"hermite": _hermite, "self_similar": _self_similar, "exudyn": _exudyn}[path](random, kappa, duration)
-    refine = 1.0 / log_uniform(random, 1.0, 3.0) if path == "exudyn" else 1.0
+    parts = {"hermite": _hermite, "self_similar": _self_similar, "exudyn": _exudyn}[path]
+    tables, refine = parts(random, kappa, duration)
     return Draw(path, tables, kappa, _load(random, kappa), duration, refine)
 
 
@@ -100,7 +100,7 @@ def log_uniform(random: np.random.Generator, low: float, high: float) -> float:
     return float(np.exp(random.uniform(math.log(low), math.log(high))))
 
 
-def _hermite(random: np.random.Generator, kappa: float, duration: float) -> dict[str, Any]:
+def _hermite(random: np.random.Generator, kappa: float, duration: float) -> tuple[dict[str, Any], float]:
     element = 2.0 * math.sqrt(duration * kappa / 2.0) * log_uniform(random, 0.02, 0.4)
     growth = 1.0 + log_uniform(random, 0.005, 0.1)
     zone = float(random.uniform(1.0, 4.0)) * math.sqrt(2.0 * duration / kappa)
@@ -119,10 +119,10 @@ def _hermite(random: np.random.Generator, kappa: float, duration: float) -> dict
     mesh, scheme = (options[random.integers(len(options))] for options in (meshes, schemes))
     contact = str(random.choice(["node", "node", "middle", "mean"]))
     only_nodes = scheme["kind"] == "generalized_alpha_penalty"  # it takes no other
-    return {"mesh": mesh, "integrator": scheme, "contact": {"kind": "node" if only_nodes else contact}}
+    return {"mesh": mesh, "integrator": scheme, "contact": {"kind": "node" if only_nodes else contact}}, 1.0
 
 
-def _self_similar(random: np.random.Generator, *_: float) -> dict[str, Any]:
+def _self_similar(random: np.random.Generator, kappa: float, duration: float) -> tuple[dict[str, Any], float]:
     mesh = {
         "kind": "expanding",
         "front_resolution": log_uniform(random, 0.005, 0.1),
@@ -130,11 +130,12 @@ def _self_similar(random: np.random.Generator, *_: float) -> dict[str, Any]:
         "step_ratio": float(random.uniform(0.01, 0.06)),
         "decades": float(random.uniform(2.0, 5.0)),
     }
-    return {"mesh": mesh}
+    return {"mesh": mesh}, 1.0
 
 
-def _exudyn(random: np.random.Generator, *_: float) -> dict[str, Any]:
-    return {"integrator": {"kind": str(random.choice(["generalized_alpha", "newmark", "trapezoidal"]))}}
+def _exudyn(random: np.random.Generator, kappa: float, duration: float) -> tuple[dict[str, Any], float]:
+    kind = str(random.choice(["generalized_alpha", "newmark", "trapezoidal"]))
+    return {"integrator": {"kind": kind}}, 1.0 / log_uniform(random, 1.0, 3.0)
 
 
 class Point(NamedTuple):
