@@ -20,7 +20,6 @@ from bent_beam_programs.open_benchmark.reading import load_result
 from bent_beam_programs.open_benchmark.result import ResultError
 from tests.open_benchmark.exact import exact_fields
 
-SECONDS, BYTES = 10.0, 1_000_000_000
 FIELDS = exact_fields()
 WORDS = {"outcome": "completed", "problem": "leading-0.5", "metadata": {"tool": "exact"}}
 ROWS = np.column_stack([FIELDS[name] for name in ("tau", "J", "Jm")]).tolist()
@@ -117,7 +116,7 @@ def test_a_hostile_result_is_refused_in_one_line_in_little_memory_and_time(answe
     said, seconds, memory = answers[name]
     assert answers["good"][0] == "good"
     assert said != "good" and len(said) < 500 and all(c.isprintable() for c in said)
-    assert seconds < SECONDS and memory < BYTES
+    assert seconds < 10.0 and memory < 1_000_000_000
     assert "table of contents" in said or name != "thousands of entries"  # before zipfile reads all of it
 
 
