@@ -20,6 +20,7 @@ def simulate(tmp_path, path, settings):
 
 
 UNIFORM = "mesh.kind=uniform mesh.element_length="
+LONG_STEPS = "hermite.integrator.kind=signorini_position hermite.integrator.growth=3.0"
 BENT = UNIFORM + "0.25 beam.length=10.0 beam.curvature=30.0"
 DAMPED = "beam.curvature=0.1 beam.damping=0.01"  # η = 0.01 t*: bending runs 0.1 l* in that time
 
@@ -29,11 +30,7 @@ DAMPED = "beam.curvature=0.1 beam.damping=0.01"  # η = 0.01 t*: bending runs 0.
     [
         ("hermite", "run.duration=3.0", "ends of the beam"),
         ("hermite", UNIFORM + "2.0", "cannot resolve the contact front"),
-        (
-            "hermite",
-            "hermite.integrator.kind=signorini_position hermite.integrator.growth=3.0",
-            "time steps cannot resolve",
-        ),
+        ("hermite", LONG_STEPS, "time steps cannot resolve"),
         ("exudyn", UNIFORM + "0.02 beam.length=0.4", "reflected"),
         ("exudyn", UNIFORM + "1.0", "holds 0.3 elements at the end time"),  # √(κ/ν · 2T) m
         ("exudyn", "mesh.kind=graded mesh.element_length=0.02 mesh.growth=1.25", "grows by 25%"),
