@@ -173,7 +173,7 @@ def part_from_table(kinds: Mapping[str, type], table: Any, where: str) -> Any:
         raise InputError(f"{where}.kind is required (one of {', '.join(sorted(kinds))})")
     kind = table["kind"]
     if not isinstance(kind, str) or kind not in kinds:
-        raise InputError(f"{where}.kind: {checks.shortened(kind)} is not known{nearest(str(kind), kinds)}")
+        raise InputError(f"{where}.kind: {checks.shortened(kind)} is not known{nearest(checks.shortened(kind), kinds)}")
     values = {key: value for key, value in table.items() if key != "kind"}
     return made_from(kinds[kind], values, where, more=("kind",))
 

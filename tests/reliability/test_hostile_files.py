@@ -183,7 +183,7 @@ def test_unreadable_case_files_are_refused(kind, tmp_path):
     assert "error: case file" in refused("predict", file, "--json")
 
 
-@pytest.mark.parametrize("table", ["beam.damping", "hermite.mesh", "nonsense"])
+@pytest.mark.parametrize("table", ["beam.damping", "hermite.mesh", "mesh.kind", "nonsense"])
 def test_tables_nested_without_end_are_refused_in_one_line(table, tmp_path):
     """Two thousand tables in each other take no bracket: a.a.a… = 1."""
     (tmp_path / "case.toml").write_text(f"{CASE}[{table}]\n{'a.' * 2000}b = 1\n")
