@@ -220,7 +220,7 @@ def _stored(kept: Path) -> tuple[Run, Result | None]:
     try:
         return run, load_result(kept if kept.is_file() else kept.with_suffix(".json"))
     except ResultError as error:
-        return Run("invalid", str(error), run.seconds, run.unlimited), None
+        return Run("invalid", str(error), run.seconds, run.unlimited, run.repeats), None
 
 
 def _row(adapter: Adapter, asked: Problem, resolution: str, out: Path, drawn: bool) -> Row:
