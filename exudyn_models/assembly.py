@@ -223,7 +223,6 @@ def stable_step(beam: Beam, contact: ContactRun, integrator: Integrator) -> floa
     state[:, :4, 4:] = np.eye(4)
     state[:, 4:, :4], state[:, 4:, 4:] = -np.linalg.solve(mass, stiffness), -np.linalg.solve(mass, damping)
     largest = float(np.abs(np.linalg.eigvals(state)).max())
-    axial = (
-        math.sqrt(171.0 * beam.axial_stiffness) / beam.lengths.min()
-    )  # of a free cubic element, 170.1; a linear one: 12
+    # of a free cubic element, 170.1; a linear one: 12
+    axial = math.sqrt(171.0 * beam.axial_stiffness) / beam.lengths.min()
     return float(integrator.limit / max(largest, axial))

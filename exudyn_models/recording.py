@@ -132,11 +132,12 @@ class Recorder:
         if len(self._rows) < 2 and not self._pending:
             return
         time, q, v, a, force, along, active = (np.array(column) for column in zip(*self._rows))
-        dt, beam, saved = np.diff(time), self.beam, self._pending
+        beam, saved = self.beam, self._pending
         gains = self._of_energy(time, q, v, a) | self._of_contact(time, q, v, force, along)
         after = {name: onwards(self.sums[name], gain) for name, gain in gains.items()}
         total = self.start_momentum + after["load_impulse"] - v @ self.momentum
-        of_law = self._impulses_of_law(dt, force)
+        gain, self._averaged = self.averages.impulses(force, self._averaged)  # as the scheme averages
+        of_law = gain * np.diff(time)[:, None]
         after["law_impulse"] = onwards(self.sums["law_impulse"], of_law.sum(axis=1))
         after["impulse"] = onwards(self.sums["impulse"], self._shared(of_law, q, np.diff(total)))
         if self.scaling.impact.supported:
@@ -152,7 +153,9 @@ class Recorder:
         self.record["kinetic_energy"] += beam.kinetic_energy(v[saved]).tolist()
         self.record["strain_energy"] += beam.strain_energy(q[saved]).tolist()
         self.record["stretch_energy"] += beam.stretch_energy(q[saved]).tolist()
-        self._note_moments(moments)
+        largest = nodal_largest(moments)
+        place, middle = beam.shape.place[largest.argmax(axis=1)], largest[:, np.argmin(np.abs(beam.shape.s))]
+        self._keep_largest("moments", largest.max(axis=1), place, middle, anew=True)
         self.sums |= {name: values[-1] for name, values in after.items()}
         self.total = float(total[-1])
         late = time > (0.1 if beam.shears else 0.01)  # its first hits are those of a string
@@ -160,12 +163,6 @@ class Recorder:
             depth = y[late][:, self.contact.nodes].max(axis=1)  # what lies beyond them is let through
             self.deepest = max(self.deepest, float((depth / time[late]).max()))
         self._pending, self._rows = [], self._rows[-1:]
-
-    def _note_moments(self, moments: Array) -> None:
-        """The largest bending moment since the saved instant before, its place, and the one in the middle."""
-        shape, nodes = self.beam.shape, nodal_largest(moments)
-        middle = nodes[:, np.argmin(np.abs(shape.s))]
-        self._keep_largest("moments", nodes.max(axis=1), shape.place[nodes.argmax(axis=1)], middle, anew=True)
 
     def _keep_largest(self, name: str, sizes: Array, where: Array, *others: Array, anew: bool) -> None:
         """Save with each instant the largest of ``sizes``, ``where`` it was, and the largest of each of ``others``, of
@@ -219,11 +216,6 @@ class Recorder:
             dashpots = np.where(depth > 0.0, force - contact.wall_springs * depth, 0.0)  # also slow what would pull
             gains["loss_wall"] = products(means(dashpots), deeper)
         return gains
-
-    def _impulses_of_law(self, dt: Array, force: Array) -> Array:
-        """Impulse of the contact law's force at each point in each step, (steps, contacts), as the scheme averages."""
-        gain, self._averaged = self.averages.impulses(force, self._averaged)
-        return np.asarray(gain * dt[:, None])
 
     def _shared(self, gain: Array, q: Array, total: Array) -> Array:
         """``gain`` of each contact point in each step, (steps, contacts). What its sum lacks of ``total``, (steps,), is

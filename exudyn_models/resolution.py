@@ -144,15 +144,10 @@ def chosen_steps(integrator: Implicit, factor: float, mesh: Mesh, impact: Impact
         return dataclasses.replace(integrator, time_step=step)
     relative = integrator.default_step / factor
     if thin_front(impact.kappa_over_nu) and not returned:
-        relative = min(relative, _step_over_elements(mesh, Scaling(impact, end)))
+        scaling, places = Scaling(impact, end), mesh.nodes(modelled_half_length(mesh, impact))
+        k = min(max(int(np.searchsorted(places, scaling.front * scaling.length)), 1), places.size - 1)
+        relative = min(relative, 2.0 * PASSED * float(places[k] - places[k - 1]) / float(places[k]))  # x ~ √t
     return dataclasses.replace(integrator, relative_step=relative)
-
-
-def _step_over_elements(mesh: Mesh, scaling: Scaling) -> float:
-    """h/t with which the front, x ~ √t, passes ``PASSED`` elements in the last step."""
-    places = mesh.nodes(modelled_half_length(mesh, scaling.impact))
-    k = min(max(int(np.searchsorted(places, scaling.front * scaling.length)), 1), places.size - 1)
-    return 2.0 * PASSED * float(places[k] - places[k - 1]) / float(places[k])
 
 
 def reachable(x: Array, scaling: Scaling, centre: int) -> Indices:

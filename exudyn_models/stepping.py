@@ -18,7 +18,7 @@ import numpy as np
 from bent_beam.checks import MOST_INSTANTS, affordable, between, whole
 from bent_beam.errors import InputError
 from bent_beam.fields import describe
-from bent_beam.method import Save
+from bent_beam.method import Progress, Save
 from exudyn_models.assembly import Chosen, Layout, assemble, settings_of, stable_step
 from exudyn_models.geometry import Array
 from exudyn_models.recording import Recorder
@@ -73,12 +73,7 @@ class Stepping:
     """
 
     def __init__(
-        self,
-        layout: Layout,
-        chosen: Chosen,
-        targets: Array,
-        progress: Callable[[float], object] | None,
-        until: Until | None,
+        self, layout: Layout, chosen: Chosen, targets: Array, progress: Progress | None, until: Until | None
     ) -> None:
         scaling, integrator, nodes = layout.scaling, chosen.integrator, layout.shape.s.size
         if nodes > MOST_NODES:
@@ -200,13 +195,22 @@ class Stepping:
     def _all_segments(self, mbs: Any) -> None:
         if self.settling is not None:
             mbs.SetPostNewtonUserFunction(self.settling)
+        run, first = self.run, self.segments[0]
         try:
-            if self._started(self.segments[0]):
-                mbs.SetPostStepUserFunction(self)
-                for segment in self._in_flight() if self.flight else self.segments:
-                    self._step_through(segment)
-                    if self.failure is not None or self._over:
-                        break
+            first.lay(self.settings.timeIntegration)
+            began = clock.perf_counter()
+            if not self.solver.InitializeSolver(mbs, self.settings):
+                self.failure = "Exudyn could not initialise"
+                return
+            self.seconds += clock.perf_counter() - began
+            q, v = run.read(0.0)
+            run.save(q)
+            run.contact.between(0.0, first.length, q, v)
+            mbs.SetPostStepUserFunction(self)
+            for segment in self._in_flight() if self.flight else self.segments:
+                self._step_through(segment)
+                if self.failure is not None or self._over:
+                    break
         except FloatingPointError as error:
             self.failure = str(error)
         except SystemError as error:  # what was raised while Exudyn ran, an interrupt by the user above all
@@ -215,21 +219,7 @@ class Stepping:
             self._failed(str(error))
         finally:
             mbs.SetPostStepUserFunction(0)
-            self.run.sum_up()
-
-    def _started(self, first: Segment) -> bool:
-        """Whether Exudyn took the system; the state at t = 0 is then read and saved."""
-        run = self.run
-        first.lay(self.settings.timeIntegration)
-        began = clock.perf_counter()
-        if not self.solver.InitializeSolver(run.beam.mbs, self.settings):
-            self.failure = "Exudyn could not initialise"
-            return False
-        self.seconds += clock.perf_counter() - began
-        q, v = run.read(0.0)
-        run.save(q)
-        run.contact.between(0.0, first.length, q, v)
-        return True
+            run.sum_up()
 
     def _in_flight(self) -> Iterator[Segment]:
         """Segments whose steps grow with the smallest gap, from those near the wall up to ``flight``."""

@@ -8,7 +8,7 @@ Optim. 13, 865). All wrong ones are exchanged in rounds in which their number ha
 that are all wrongly open or all wrongly closed only the worst is exchanged, or both if they are two: a beam is stiff
 over a few nodes, so that this mends the rest. When the number has not fallen for ``PATIENCE`` rounds, only the wrong
 one of highest index is exchanged (Murty's rule; Júdice & Pires 1994, Comput. Oper. Res. 21, 587). After ``MOST_ROUNDS``
-:func:`exchange_one` starts anew.
+:func:`exchange_one` starts anew, with all constraints open.
 
 Signs are judged against round-off: p against the terms of its equation, a gap against the largest deflection and slope.
 """
@@ -129,7 +129,7 @@ def solve_constrained(
     solver: Solver, rows: Rows, conditions: Constraints, b: Array, x: Array, most_rounds: int = MOST_ROUNDS
 ) -> int:
     """Solve for x (dofs,) and ``conditions.p`` from the guess ``conditions.closed``; returns SOLVED, SINGULAR or
-    CYCLING. After ``most_rounds`` the fall-back (:func:`exchange_one`) begins anew with all constraints open."""
+    CYCLING."""
     begin(solver, rows, conditions)
     p, status, rounds = conditions.p, CYCLING, 0
     before = fewest = p.size + 1

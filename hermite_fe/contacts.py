@@ -15,14 +15,14 @@ options keep closed constraints closed whatever they pull, for comparison and fo
 only:
 
 - ``hold_until``: nothing that has closed opens before this time: a bilateral start, which the long first step of
-  :mod:`hermite_fe.resolution` makes needless. Off unless stated.
+  :mod:`hermite_fe.resolution` makes needless.
 - ``hold``: a constraint that has closed is not released until the front is so many constraints further. What is held
   so vanishes as elements shrink. Behind a moving front the exact reaction is zero, and noise of either sign there
-  turns into pushes off the wall. Off unless stated, but in runs that measure what a pressing load changes.
+  turns into pushes off the wall.
 
-Neither acts after t_w = 0.005 T* (:data:`bent_beam.impact.WAVES_FELT`), from when on waves from the ends may move the
-zone. A held constraint may pull; what it pulled is recorded as ``held_impulse``, and how hard as ``hold`` in the
-settings.
+Both are off unless stated, but ``hold`` in runs that measure what a pressing load changes. Neither acts after
+t_w = 0.005 T* (:data:`bent_beam.impact.WAVES_FELT`), from when on waves from the ends may move the zone. What was
+pulled is recorded as ``held_impulse``, and how hard as ``hold`` in the settings.
 """
 
 import dataclasses

@@ -97,10 +97,7 @@ class Sponge(GridViscosity):
         if width > 0.0:
             depth = np.clip(1.0 - (half_length - np.abs(middles)) / width, 0.0, 1.0)
             absorber = self.strength * width**2 * depth**3
-        return (
-            *super().dampings(beam, impact),
-            ("absorbed", beam.stiffness(weight=absorber / impact.wave_constant)),
-        )
+        return (*super().dampings(beam, impact), ("absorbed", beam.stiffness(weight=absorber / impact.wave_constant)))
 
 
 FAR_FIELDS: dict[str, type] = {"viscosity": GridViscosity, "sponge": Sponge}

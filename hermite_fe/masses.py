@@ -66,8 +66,7 @@ class LumpedMass(Mass):
         lengths, mass = beam.lengths, beam.mass_per_length * beam.lengths
         share = np.stack([0.5 * mass, mass * (self.rotary * lengths**2)], axis=1)
         share[:, 1] += 0.5 * beam.rotary_inertia * lengths
-        diagonal = np.tile(share, 2)
-        return np.asarray(diagonal[:, :, None] * np.eye(4))
+        return np.asarray(np.tile(share, 2)[:, :, None] * np.eye(4))
 
 
 MASSES: dict[str, type] = {"consistent": ConsistentMass, "lumped": LumpedMass}

@@ -55,12 +55,7 @@ class HermiteFE(Composition):
         return refusal(impact, self.contact)
 
     def simulate(
-        self,
-        impact: Impact,
-        *,
-        end_time: float | None = None,
-        save: Save = 200,
-        progress: Progress | None = None,
+        self, impact: Impact, *, end_time: float | None = None, save: Save = 200, progress: Progress | None = None
     ) -> ImpactHistory:
         """Follow ``impact`` to ``end_time`` (s); see :func:`hermite_fe.simulate`.
 
@@ -163,12 +158,7 @@ class HermiteFE(Composition):
         )
 
     def simulate_to_separation(
-        self,
-        impact: Impact,
-        *,
-        longest: float | None = None,
-        save: int = 2000,
-        progress: Progress | None = None,
+        self, impact: Impact, *, longest: float | None = None, save: int = 2000, progress: Progress | None = None
     ) -> ImpactHistory:
         """Follow ``impact`` until the beam has left for good (:func:`bent_beam.method.simulate_to_separation`)."""
         if self.far_field is not None and self.far_field.absorbs:

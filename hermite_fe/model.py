@@ -138,7 +138,8 @@ def beam_model(
         dampings += (("material", impact.damping * bending_stiffness),)
     bent = impact.unbent_curvature - impact.curvature  # what of the bow is elastic
     bending = Bending(beam.lengths, beam.phi, relaxed, impact.bending_stiffness * bent, half.size - 1 if full else 0)
-    supports = held_dofs(impact, beam, full=full)
+    left = tuple(range(HELD[impact.left_end])) if full else (1,)  # the slope in the middle
+    supports = left + tuple(range(beam.dofs - 2, beam.dofs - 2 + HELD[impact.right_end]))
     rows = before_the_wall(contact.rows(beam, facing, full=full), impact, supports)
     if impact.opposite_wall is not None:
         rows = with_opposite_wall(rows, natural, impact.opposite_wall)
@@ -185,13 +186,6 @@ def nodal_loads(
             ends = [0, -1] if beam.nodes[0] < 0.0 else [-1]
             load[0, 0::2][ends] += impact.axial_force * impact.curvature * np.abs(s[ends])
     return load if np.any(load[1]) else load[:1]
-
-
-def held_dofs(impact: Impact, beam: HermiteBeam, *, full: bool) -> tuple[int, ...]:
-    """Dofs that the ends hold, and the slope in the middle of a half beam."""
-    left = tuple(range(HELD[impact.left_end])) if full else (1,)
-    last = beam.dofs - 2
-    return left + tuple(range(last, last + HELD[impact.right_end]))
 
 
 def before_the_wall(rows: ContactRows, impact: Impact, supports: tuple[int, ...]) -> ContactRows:

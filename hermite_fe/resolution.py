@@ -9,9 +9,8 @@ must be a fraction of ℓ where the front is, steps a fraction of its travel ove
   (κ < ``THIN``) even ones over the zone that the run covers.
 - steps: constant at first, then in proportion to the time since impact; for a thin front constant.
 - **the first steps** of Signorini's scheme are so long that the front is three smallest elements thick after one of
-  them. No mesh resolves the first instants. With short steps each node strikes the wall separately and rebounds, and
-  the gaps remain ("double detachment", thesis 3.3.5). A long step of implicit Euler closes those nodes together;
-  docs/numerics.md has what that changes.
+  them: it closes the nodes of the unresolved first instants together, of which each would otherwise strike the wall
+  and rebound separately ("double detachment", thesis 3.3.5; docs/numerics.md).
 - integrator: Signorini at the new position, which leaves closed constraints exactly on the wall and does not rattle;
   Moreau–Jean when constraints rebound.
 - contact: unilateral; nothing is held unless asked for, except in runs that measure what a pressing load changes.
@@ -19,8 +18,6 @@ must be a fraction of ℓ where the front is, steps a fraction of its travel ove
 - a wall that gives way has scales of its own, ℓ_k and t_k (:mod:`bent_beam.loads`): the pressure falls off at
   the rim of the zone over some ℓ_k, and the force rises and falls over some t_k, whatever the zone does. A zone that is
   short when the force is largest, κ/ν > 1, has then a half length of about ℓ_k(κ/ν)^−⅜.
-
-A whole beam asks for something else: :mod:`hermite_fe.whole_beam`.
 
 Most of the constants below are studied in tests/comparison/test_constants.py: halved and doubled they move λ₀ and r₀ by
 at most 0.1 %. Those of an elastic wall, of a thin front and of the most elements are not.
@@ -141,8 +138,7 @@ def choose(impact: Impact, end_time: float, parts: Composition | None = None) ->
         raise InputError(
             f'domain cuts the beam where it goes on: far_field.end must be "following" (got {far_field.end!r})'
         )
-    nodes = snapped(fine, impact.places)
-    return Choice(mesh, nodes, integrator, contact, far_field, parts.mass or ConsistentMass())
+    return Choice(mesh, snapped(fine, impact.places), integrator, contact, far_field, parts.mass or ConsistentMass())
 
 
 def scheme_for(impact: Impact, contact: Contact, theta: float = 1.0) -> Integrator:

@@ -94,8 +94,7 @@ def problem_of(system: System, law: ContactLaw) -> Problem:
         second=system.second,
     )  # fmt: skip
     law = law._replace(strength=np.zeros(len(system.contacts)) + law.strength)
-    rows = Rows(*(getattr(system.contacts, name) for name in Rows._fields))
-    return Problem(matrices, rows, law, solver_of(system))
+    return Problem(matrices, Rows(*(getattr(system.contacts, name) for name in Rows._fields)), law, solver_of(system))
 
 
 def state_of(system: System, q: Array, v: Array) -> State:

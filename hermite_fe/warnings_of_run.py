@@ -112,8 +112,7 @@ def lift_warnings(impact: Impact, model: BeamModel, history: ImpactHistory) -> l
         worst, widest = max(worst, float(lift) / (impact.velocity * time[k])), widest | inside
     longest = float(np.diff(nodes[widest]).max(initial=0.0))
     own = max(math.sqrt(impact.wave_constant * impact.damping), impact.shear_length)
-    resolved = own > 0.0 and own >= DAMPED * longest
-    if worst <= LARGEST_LIFT or resolved:
+    if worst <= LARGEST_LIFT or (own > 0.0 and own >= DAMPED * longest):
         return []
     return [
         f"the contact zone lifts off the wall by up to {worst:.2g} V₀t in the last decade of time (numbers good to "

@@ -53,12 +53,7 @@ class SelfSimilarFE(Part):
         return unmodelled(impact, MODELLED)
 
     def simulate(
-        self,
-        impact: Impact,
-        *,
-        end_time: float | None = None,
-        save: Save = 200,
-        progress: Progress | None = None,
+        self, impact: Impact, *, end_time: float | None = None, save: Save = 200, progress: Progress | None = None
     ) -> ImpactHistory:
         """Follow ``impact`` over the mesh's decades of time up to ``end_time``, s (by default 0.1 t*, but 0.01 T* at
         most)."""

@@ -23,31 +23,25 @@ class Integrator(Part, ABC):
     """Base of the integrators: steps h = max(time_step, growth·t), adjusted down so that they end at the end time.
 
     With growth every decade of a self-similar motion takes the same number of steps.
+
+    holds : whether the scheme supports the hold (:mod:`hermite_fe.contacts`); holds_zone : whether that of the whole
+        zone, as in runs that measure what a pressing load changes, is stable.
+    rebounds : whether it has an impact law, for restitution. damped : whether it takes damping.
+    elastic : whether it is for a wall that gives way (:mod:`hermite_fe.elastic_wall`), and not for a rigid one.
+    hysteretic : whether it steps Maxwell branches (:mod:`hermite_fe.maxwell`).
+    elements_in_first_front : a chosen first step (:mod:`hermite_fe.resolution`) ends when the front is so many smallest
+        elements thick. More than one, which is a long step, is for schemes that close many nodes at once without
+        rebound.
     """
 
     where: ClassVar[str] = "integrator"
-
     holds: ClassVar[bool] = False
-    """Whether the scheme supports the hold (:mod:`hermite_fe.contacts`)."""
-
     holds_zone: ClassVar[bool] = False
-    """Whether a hold of the whole zone, as in runs that measure what a pressing load changes, is stable."""
-
     rebounds: ClassVar[bool] = True
-    """Whether the scheme has an impact law, for restitution."""
-
-    elastic: ClassVar[bool] = False
-    """Whether the scheme is for a wall that gives way (:mod:`hermite_fe.elastic_wall`), and not for a rigid one."""
-
     damped: ClassVar[bool] = True
-    """Whether the scheme takes damping."""
-
+    elastic: ClassVar[bool] = False
     hysteretic: ClassVar[bool] = False
-    """Whether the scheme steps Maxwell branches (:mod:`hermite_fe.maxwell`)."""
-
     elements_in_first_front: ClassVar[float] = 0.03
-    """A chosen first step (:mod:`hermite_fe.resolution`) ends when the front is so many smallest elements thick. More
-    than one, which is a long step, is for schemes that close many nodes at once without rebound."""
 
     time_step: Annotated[float | None, Quantity("s", "smallest step", above=0.0)] = None
     growth: Annotated[
@@ -72,11 +66,8 @@ class Integrator(Part, ABC):
 
     def refined(self, factor: float) -> Self:
         """A copy with steps ``factor`` times shorter; what is unset stays unset."""
-        return dataclasses.replace(
-            self,
-            time_step=None if self.time_step is None else self.time_step / factor,
-            growth=None if self.growth is None else self.growth / factor,
-        )
+        steps = {"time_step": self.time_step, "growth": self.growth}
+        return dataclasses.replace(self, **{name: step / factor for name, step in steps.items() if step is not None})
 
     def instants(self, end_time: float) -> Array:
         """All instants from 0 to ``end_time``, s, shape (steps + 1,). ``time_step`` must be set."""

@@ -136,12 +136,10 @@ class GeneralizedAlphaPenalty(Integrator):
 
     spectral_radius: alpha.SpectralRadius = 0.8
     stiffness: Annotated[
-        float | None,
-        Quantity("N/m²", "k_c, per length of beam", above=0.0, absent="chosen, 1e5 μ/T² of a run to T"),
+        float | None, Quantity("N/m²", "k_c, per length of beam", above=0.0, absent="chosen, 1e5 μ/T² of a run to T")
     ] = None
     damping: Annotated[
-        float | None,
-        Quantity("N s/m²", "d_c, per length of beam", least=0.0, absent="chosen, 3e3 μ/T of a run to T"),
+        float | None, Quantity("N s/m²", "d_c, per length of beam", least=0.0, absent="chosen, 3e3 μ/T of a run to T")
     ] = None
     contact_rounds: Annotated[
         int, Quantity("", "limit on solutions a step for the set of active springs; more fail", least=1)

@@ -35,11 +35,10 @@ STABLE = 0.8  # of the length of a step times the bound of the frequencies; Verl
 
 
 class MasslessMemory(NamedTuple):
-    """conditions : of the contact, their ``p`` λ, N, when solved, then the step's impulse; inner : (dofs,), those with
-    mass.
+    """conditions : of the contact, their ``p`` λ, N, when solved, then the step's impulse.
 
-    fastest : bound of the frequencies, 1/s; push : (rows,), λ at the instant reached. Work arrays, (dofs,): b, dq, mean
-    velocity, force, scratch.
+    inner : (dofs,), those with mass; fastest : bound of their frequencies, everything else held, 1/s.
+    push : (rows,), λ at the instant reached. Work arrays, (dofs,): b, dq, mean velocity, force, scratch.
     """
 
     conditions: Constraints
@@ -65,14 +64,15 @@ class MasslessBoundary(Integrator):
         matrices, solver, stride = problem.matrices, problem.solver, 2 if state.bending.lengths.size else 1
         mass = moved_masses(problem, stride)
         inner = (mass > 0.0) & ~solver.fixed[solver.unknown]
+        root = np.where(inner, 1.0 / np.sqrt(np.where(inner, mass, 1.0)), 0.0)
+        fastest = float(np.sqrt((root * product(np.abs(matrices.K), root)).max()))
         matrices.M[:] = 0.0  # of this run from here on
         matrices.M[0] = np.where(inner, mass, 0.0)
         solver.fixed[solver.unknown[inner]] = True  # while the others find their equilibrium
         recompiling(lambda: prepare(problem, 0.0, 1.0, 0.0, 0.0))  # K, and masses where nothing is solved for
         memory = MasslessMemory(
-            constraints_of(problem.rows), inner, fastest(matrices.K, mass, inner), np.zeros_like(state.impulse),
-            *np.zeros((5, state.q.size)),
-        )  # fmt: skip
+            constraints_of(problem.rows), inner, fastest, np.zeros_like(state.impulse), *np.zeros((5, state.q.size))
+        )
         if recompiling(lambda: settle(problem, state, memory, 0.0)) != SOLVED:
             raise InputError("integrator.kind: the points that keep mass in massless_boundary must hold all others")
         memory.push[:] = memory.conditions.p
@@ -119,12 +119,6 @@ def moved_masses(problem: Problem, stride: int) -> Array:
     mass[:-stride] += given[stride:]
     mass[stride:] += given[:-stride]
     return mass
-
-
-def fastest(K: Array, mass: Array, inner: Flags) -> float:
-    """A bound of the frequencies of the points with mass, everything else held, 1/s."""
-    root = np.where(inner, 1.0 / np.sqrt(np.where(inner, mass, 1.0)), 0.0)
-    return float(np.sqrt((root * product(np.abs(K), root)).max()))
 
 
 @compiled
