@@ -107,11 +107,6 @@ class Units:
         self.mass_per_length = force * (time / length) ** 2
         self.stiffness, self.damping = force / length, force * time / length
 
-    @classmethod
-    def si(cls, scaling: Scaling) -> Units:
-        """m, s and N."""
-        return cls(scaling.length, scaling.end_time, scaling.impact.bending_stiffness / scaling.length**2)
-
 
 @dataclass(frozen=True)
 class Shape:

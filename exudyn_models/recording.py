@@ -22,6 +22,7 @@ import numpy as np
 from bent_beam import ImpactHistory
 from bent_beam.files import ENERGIES
 from exudyn_models.contacts import ContactRun
+from exudyn_models.contacts.penalty import SpringsRun
 from exudyn_models.elements import Beam
 from exudyn_models.geometry import Array
 from exudyn_models.integrators import Averages
@@ -39,15 +40,8 @@ def means(rows: Array) -> Array:
     return np.asarray((rows[1:] + rows[:-1]) / 2)
 
 
-def nodal_means(ends: Array) -> Array:
-    """Of what both elements say at a node, (rows, nodes), from (rows, elements, 2)."""
-    sums = np.pad(ends[..., 0], ((0, 0), (0, 1))) + np.pad(ends[..., 1], ((0, 0), (1, 0)))
-    sums[:, 1:-1] /= 2.0
-    return np.asarray(sums)
-
-
 def nodal_largest(ends: Array) -> Array:
-    """Likewise the size of the larger."""
+    """The larger size of what both elements say at a node, (rows, nodes), from (rows, elements, 2)."""
     sizes = np.pad(np.abs(ends), ((0, 0), (1, 1), (0, 0)))
     return np.asarray(np.maximum(sizes[:, :-1, 1], sizes[:, 1:, 0]))
 
@@ -147,7 +141,9 @@ class Recorder:
         now = {"time": time, "y": y, "velocity": v[:, beam.vertical], "slope": slope}
         now |= {"total_impulse": total, "in_contact": active}
         if beam.scaling.shear_length:
-            now |= {"angular_velocity": v[:, beam.rotation], "bending_moment": nodal_means(moments)}
+            means_of_both = np.pad(moments[..., 0], ((0, 0), (0, 1))) + np.pad(moments[..., 1], ((0, 0), (1, 0)))
+            means_of_both[:, 1:-1] /= 2.0
+            now |= {"angular_velocity": v[:, beam.rotation], "bending_moment": means_of_both}
         for name, values in (after | now).items():
             self.record[name] += [values[k].copy() for k in saved]
         self.record["kinetic_energy"] += beam.kinetic_energy(v[saved]).tolist()
@@ -205,15 +201,15 @@ class Recorder:
             gains["contact_work"] = gains["contact_work"] - products(means(along), moved)
         if contact.held_until:  # no other law pulls
             gains |= {"pulls": np.maximum(-pushes, 0.0), "pushes": pushes}
-        if contact.wall_springs is not None:
+        if isinstance(contact, SpringsRun):
             s, speed = self.scaling, v[:, contact.coordinates]
             delay = s.impact.wall_damping / (s.impact.wall_stiffness or math.inf) / s.end_time  # c/k
             landing = np.pad(contact.landing(depth, speed), ((1, 0), (0, 0)))
-            pressure = np.maximum(np.where(depth > 0.0, depth + delay * speed, 0.0), landing / contact.wall_springs)
+            pressure = np.maximum(np.where(depth > 0.0, depth + delay * speed, 0.0), landing / contact.stiffness)
             deepest, whole, landed = np.maximum(depth, 0.0).max(axis=1), force.sum(axis=1), landing.sum(axis=1)
             when = np.where(landed > whole, np.roll(time, 1), time)  # as a step begins
             self._keep_largest("peaks", np.maximum(whole, landed), when, deepest, pressure.max(axis=1), anew=False)
-            dashpots = np.where(depth > 0.0, force - contact.wall_springs * depth, 0.0)  # also slow what would pull
+            dashpots = np.where(depth > 0.0, force - contact.stiffness * depth, 0.0)  # also slow what would pull
             gains["loss_wall"] = products(means(dashpots), deeper)
         return gains
 

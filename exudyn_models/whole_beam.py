@@ -66,7 +66,11 @@ def for_whole_beam(method: M, impact: Impact) -> M:
     integrator = Trapezoidal() if method.integrator is None else method.integrator.refined(method.refine)
     if isinstance(integrator, Implicit) and integrator.is_open:
         step = slower * resolving_step(mesh, impact) if wall is None else step_of_wall(mesh, impact, wall)
-        integrator = dataclasses.replace(integrator, time_step=step, flight_step=_flight_step(impact, step))
+        slow = impact.slow_time_scale
+        flight = min(FLIGHT * slow, DAMPED_FLIGHT * math.sqrt(impact.damping * slow))
+        free = wall is None and impact.shear_stiffness is None and not supports_or_plate(impact)
+        flight_step = flight if free and flight > 2.0 * step else None  # None: steps off the wall are like those at it
+        integrator = dataclasses.replace(integrator, time_step=step, flight_step=flight_step)
     element = method.element or chosen_element(impact)
     contact = method.contact
     if contact is None and wall is None:
@@ -87,14 +91,6 @@ def for_whole_beam(method: M, impact: Impact) -> M:
         full_beam=method.full_beam or impact.off_centre,
         refine=1.0,
     )
-
-
-def _flight_step(impact: Impact, step: float) -> float | None:
-    """The longest step, s, of a beam off the wall, which has ``step`` before it; None: all are alike."""
-    if supports_or_plate(impact) or impact.shear_stiffness is not None or impact.wall_stiffness is not None:
-        return None
-    longest = min(FLIGHT * impact.slow_time_scale, DAMPED_FLIGHT * math.sqrt(impact.damping * impact.slow_time_scale))
-    return longest if longest > 2.0 * step else None
 
 
 def cross_checks(method: M, impact: Impact) -> dict[str, M]:

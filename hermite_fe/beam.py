@@ -148,8 +148,7 @@ class HermiteBeam:
     def static(self, load: Array, supports: Mapping[int, float]) -> Array:
         """Static deflection K q = load with prescribed dofs ``{dof: value}``; shape (dofs,).
 
-        Raises ``ValueError`` when a support is no dof of the beam, or when the supports leave it free to
-        move.
+        Raises ``ValueError`` when a support is no dof of the beam, or when the supports leave it free to move.
         """
         if unknown := [dof for dof in supports if not 0 <= dof < self.dofs]:
             raise InputError(f"supports must name dofs from 0 to {self.dofs - 1} (got {unknown[0]!r})")

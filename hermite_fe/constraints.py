@@ -148,18 +148,16 @@ def some_gave_way(conditions: Constraints) -> bool:
 
 
 @compiled_within
-def note_complementarity(
-    rows: Rows, conditions: Constraints, x: Array, to_impulse: float, to_speed: float, worst: Array
-) -> None:
+def note_complementarity(rows: Rows, conditions: Constraints, x: Array, factor: float, worst: Array) -> None:
     """Record in ``worst`` how far closed constraints are from 0 ≤ p ⊥ Gx − c ≥ 0.
 
-    x : the solution; to_impulse, to_speed : turn p into N s and Gx into m/s, or leave N and m.
+    x : the solution; factor : turns p into N s and Gx into m/s, or leaves N and m.
     """
     for j in range(conditions.p.size):
         if conditions.closed[j]:
-            p, slack = conditions.p[j], to_speed * (row_times(rows, x, j) - conditions.target[j])
-            worst[PRODUCT] = max(worst[PRODUCT], abs(to_impulse * p * slack))
-            worst[SMALLEST_REACTION] = min(worst[SMALLEST_REACTION], to_impulse * (p - conditions.least[j]))
+            p, slack = conditions.p[j], factor * (row_times(rows, x, j) - conditions.target[j])
+            worst[PRODUCT] = max(worst[PRODUCT], abs(factor * p * slack))
+            worst[SMALLEST_REACTION] = min(worst[SMALLEST_REACTION], factor * (p - conditions.least[j]))
 
 
 class Solver(NamedTuple):

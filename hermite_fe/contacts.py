@@ -158,8 +158,7 @@ def element_rows(
 
 @dataclass(frozen=True)
 class MiddleContact(Contact):
-    """Rows at the element middles; nodes may dip into the wall by KΔx²/8 before their element's row
-    closes."""
+    """Rows at the element middles; nodes may dip into the wall by KΔx²/8 before their element's row closes."""
 
     slope_share: ClassVar[float] = 8.0
     """A slope counts for its element's length over this."""

@@ -19,7 +19,7 @@ fixed meshes are noisy, and exact in time for both orders: docs/numerics.md. Not
 
 import math
 import time as clock
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -30,7 +30,7 @@ from bent_beam.errors import SimulationError
 from bent_beam.fields import describe
 from bent_beam.history import ImpactHistory, end_curvatures
 from bent_beam.impact import Impact
-from bent_beam.method import Progress
+from bent_beam.method import Progress, Save
 from self_similar_fe.mesh import Array, ExpandingMesh
 from self_similar_fe.similarity import leading_obstacle, similarity
 
@@ -41,12 +41,7 @@ OF_CONTACTS = ("impulse", "in_contact")  # all else along the beam is at its nod
 
 
 def simulate_expanding(
-    impact: Impact,
-    mesh: ExpandingMesh,
-    *,
-    end_time: float,
-    save: int | Sequence[float] | Array = 200,
-    progress: Progress | None = None,
+    impact: Impact, mesh: ExpandingMesh, *, end_time: float, save: Save = 200, progress: Progress | None = None
 ) -> ImpactHistory:
     """Follow an impact that :class:`self_similar_fe.SelfSimilarFE` takes over ``mesh.decades`` decades of time up to
     ``end_time`` (s).
@@ -244,28 +239,27 @@ class Run:
             x=places[-1],
             contact_x=places[-1],
             fields=fields | {"contact_position": (("time", "contact"), places)},
-            warnings=self.warnings(),
+            warnings=tuple(self.warnings()),
             steps=self.steps,
             seconds=seconds,
             completed=completed,
         )
 
-    def warnings(self) -> list[str]:
+    def warnings(self) -> Iterator[str]:
         """What a reader of the result should know."""
-        found, state, half_length = [], self.state, self.impact.half_length
+        state, half_length = self.state, self.impact.half_length
         reach = state.zeta[-1] * math.sqrt(self.tau) * self.impact.length_scale
         moved = abs(state.front - self.front) / max(self.front, 2.0 / math.sqrt(1.0 + self.front**2))  # its thickness
         if reach > half_length:
-            found.append(
+            yield (
                 f"an infinite beam was simulated: the waves followed here reach {reach:.3g} m, beyond the half length "
                 f"{half_length:.3g} m"
             )
         if moved > 0.3:
-            found.append(f"the front moved by {moved:.0%} of the contact length, out of the mesh's finest part")
+            yield f"the front moved by {moved:.0%} of the contact length, out of the mesh's finest part"
         if (pull := state.pull / state.push) > LARGEST_PULL or state.widened > MOST_WIDENED:
-            found.append(
+            yield (
                 f"the wall pulls by up to {pull:.2g} of its largest push in a step, contacts being judged with "
                 f"{state.widened:.2g} times the tolerance of round-off: a larger mesh.front_resolution or a smaller "
                 "mesh.step_ratio settles them"
             )
-        return found

@@ -8,15 +8,9 @@ from hermite_fe.integrators.nonsmooth_generalized_alpha import NonsmoothGenerali
 from hermite_fe.integrators.theta import MoreauJean, SignoriniPosition
 
 __all__ = [
-    "INTEGRATORS",
-    "GeneralizedAlphaPenalty",
-    "Integrator",
-    "MasslessBoundary",
-    "Midpoint",
-    "MoreauJean",
-    "NonsmoothGeneralizedAlpha",
-    "SignoriniPosition",
-]
+    "INTEGRATORS", "GeneralizedAlphaPenalty", "Integrator", "MasslessBoundary", "Midpoint", "MoreauJean",
+    "NonsmoothGeneralizedAlpha", "SignoriniPosition",
+]  # fmt: skip
 
 INTEGRATORS: dict[str, type] = {
     "moreau_jean": MoreauJean,

@@ -49,6 +49,14 @@ class Scheme(NamedTuple):
     s: float
 
 
+def scheme_of(spectral_radius: float) -> Scheme:
+    """The coefficients for ρ∞."""
+    alpha_m = (2.0 * spectral_radius - 1.0) / (spectral_radius + 1.0)
+    alpha_f = spectral_radius / (spectral_radius + 1.0)
+    gamma = 0.5 + alpha_f - alpha_m
+    return Scheme(alpha_m, alpha_f, gamma, 0.25 * (gamma + 0.5) ** 2, (1.0 - alpha_f) / (1.0 - alpha_m))
+
+
 class Reactions(NamedTuple):
     """Reactions of the smooth motion, (rows,): λ, λ_a, λ − λ_a at the start of the step, and the impulse p of the step.
 
@@ -102,11 +110,7 @@ def motion_of(problem: Problem, state: State, spectral_radius: float) -> Motion:
         raise InputError("mass must be positive definite for generalised-α, which starts with the accelerations")
     vectors.a[:] = state.acceleration
     reactions = Reactions(*np.zeros((4, m)), *np.zeros((2, m), np.bool_))
-    alpha_m = (2.0 * spectral_radius - 1.0) / (spectral_radius + 1.0)
-    alpha_f = spectral_radius / (spectral_radius + 1.0)
-    gamma = 0.5 + alpha_f - alpha_m
-    scheme = Scheme(alpha_m, alpha_f, gamma, 0.25 * (gamma + 0.5) ** 2, (1.0 - alpha_f) / (1.0 - alpha_m))
-    return Motion(scheme, vectors, reactions)
+    return Motion(scheme_of(spectral_radius), vectors, reactions)
 
 
 @compiled_within

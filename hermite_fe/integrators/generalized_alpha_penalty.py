@@ -42,7 +42,6 @@ class PenaltyMemory(NamedTuple):
 def take_steps(
     problem: Problem, state: State, memory: PenaltyMemory, times: Array, first: int, last: int
 ) -> tuple[int, int]:
-    """Take the steps ``first`` … ``last`` − 1 between the instants ``times``; returns (status, step reached)."""
     motion = memory.motion
     scheme, vectors, reactions = motion
     for k in range(first, last):

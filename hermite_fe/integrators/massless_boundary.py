@@ -60,7 +60,13 @@ class MasslessBoundary(Integrator):
     damped: ClassVar[bool] = False
 
     def start(self, problem: Problem, state: State) -> MasslessMemory:
-        refuse(problem, state)
+        kind = "integrator.kind: massless_boundary"
+        if problem.matrices.causes.size:
+            raise InputError(f"{kind} takes no damping: far_field.viscosity and that of beam and wall must be 0")
+        if np.any(state.bending.phi):
+            raise InputError(f"{kind} leaves out the inertia of slopes: shear_stiffness is not modelled")
+        if problem.rows.dofs.shape[1] > 1:
+            raise InputError(f'{kind} needs contact points that are dofs: contact.kind must be "alternate"')
         matrices, solver, stride = problem.matrices, problem.solver, 2 if state.bending.lengths.size else 1
         mass = moved_masses(problem, stride)
         inner = (mass > 0.0) & ~solver.fixed[solver.unknown]
@@ -84,17 +90,6 @@ class MasslessBoundary(Integrator):
         needed = times[-1] * memory.fastest / STABLE
         affordable("integrator.kind = massless_boundary and mesh", needed, state.q.size // 2, 1, MOST_WORK)
         return take_steps(problem, state, memory, times, first, last)
-
-
-def refuse(problem: Problem, state: State) -> None:
-    """``InputError`` for what the scheme does not have."""
-    kind = "integrator.kind: massless_boundary"
-    if problem.matrices.causes.size:
-        raise InputError(f"{kind} takes no damping: far_field.viscosity and that of beam and wall must be 0")
-    if np.any(state.bending.phi):
-        raise InputError(f"{kind} leaves out the inertia of slopes: shear_stiffness is not modelled")
-    if problem.rows.dofs.shape[1] > 1:
-        raise InputError(f'{kind} needs contact points that are dofs: contact.kind must be "alternate"')
 
 
 def moved_masses(problem: Problem, stride: int) -> Array:
@@ -174,7 +169,7 @@ def step(problem: Problem, state: State, memory: MasslessMemory, t: float, h: fl
         if not memory.inner[i]:
             mean_v[i] = memory.dq[i] / h
         v[i] = mean_v[i] + 0.5 * h * a[i]  # a is 0 where there is no mass
-    note_complementarity(problem.rows, memory.conditions, memory.dq, 1.0, 1.0, state.worst)  # p is λ here, N
+    note_complementarity(problem.rows, memory.conditions, memory.dq, 1.0, state.worst)  # p is λ here, N
     for j in range(p.size):
         now = p[j]
         p[j] = 0.5 * h * (memory.push[j] + now)

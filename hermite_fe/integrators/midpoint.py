@@ -53,7 +53,6 @@ class MidpointMemory(NamedTuple):
 def take_steps(
     problem: Problem, state: State, memory: MidpointMemory, times: Array, first: int, last: int
 ) -> tuple[int, int]:
-    """Take the steps ``first`` … ``last`` − 1 between the instants ``times``; returns (status, step reached)."""
     for k in range(first, last):
         h, anew = begin_step(problem, state, memory.vectors, times[k], times[k + 1], 0.5)
         if anew:

@@ -46,7 +46,6 @@ class AlphaMemory(NamedTuple):
 def take_steps(
     problem: Problem, state: State, memory: AlphaMemory, times: Array, first: int, last: int
 ) -> tuple[int, int]:
-    """Take the steps ``first`` … ``last`` − 1 between the instants ``times``; returns (status, step reached)."""
     motion, _, _, velocity, level = memory
     for k in range(first, last):
         t, h = times[k], alpha.prepare_step(problem, motion.scheme, times[k + 1] - times[k], times[k + 1])
@@ -72,7 +71,7 @@ def smooth_motion(problem: Problem, state: State, memory: AlphaMemory, t: float,
     forces_at(problem.matrices, t + h, state.q, state.v, vectors.b, vectors.scratch)
     status = solve_constrained(problem.solver, problem.rows, conditions, vectors.b, vectors.x)
     if status == SOLVED:
-        constraints.note_complementarity(problem.rows, conditions, vectors.x, h, h, state.worst)
+        constraints.note_complementarity(problem.rows, conditions, vectors.x, h, state.worst)
         alpha.correct(state, motion, h)
         for j in range(conditions.p.size):
             alpha.take_reaction(scheme, reactions, h, j, conditions.p[j])
@@ -92,7 +91,7 @@ def velocity_jump(problem: Problem, state: State, memory: AlphaMemory) -> int:
     if status == SOLVED:
         copy(velocity.p, memory.motion.reactions.impulse)
         add_impulses(state, velocity)
-        constraints.note_complementarity(rows, velocity, W, 1.0, 1.0, state.worst)
+        constraints.note_complementarity(rows, velocity, W, 1.0, state.worst)
         multiply(matrices.K, W, vectors.force)
         multiply(matrices.C, W, vectors.scratch)
         for i in range(v.size):
@@ -170,7 +169,7 @@ def position_jump(problem: Problem, state: State, memory: AlphaMemory, h: float)
     b[:] = 0.0
     status = solve_constrained(solver, rows, position, b, U)
     copy(position.closed, state.closed)
-    constraints.note_complementarity(rows, position, U, 1.0 / h, 1.0 / h, state.worst)
+    constraints.note_complementarity(rows, position, U, 1.0 / h, state.worst)
     multiply(matrices.K, U, force)
     for i in range(U.size):
         q[i] += U[i]

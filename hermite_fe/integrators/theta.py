@@ -99,7 +99,6 @@ def finish_step(problem: Problem, state: State, p: Array, vectors: Vectors, h: f
 
 @compiled
 def take_steps(problem: Problem, state: State, memory: Memory, times: Array, first: int, last: int) -> tuple[int, int]:
-    """Take the steps ``first`` … ``last`` − 1 between the instants ``times``; returns (status, step reached)."""
     (_, rows, law, solver), (conditions, vectors, theta, at_position) = problem, memory
     for k in range(first, last):
         h, _ = begin_step(problem, state, vectors, times[k], times[k + 1], theta)
@@ -117,7 +116,7 @@ def take_steps(problem: Problem, state: State, memory: Memory, times: Array, fir
         if status == SOLVED:
             copy(conditions.closed, state.closed)
             add_impulses(state, conditions)
-            constraints.note_complementarity(rows, conditions, vectors.dv, 1.0, 1.0, state.worst)
+            constraints.note_complementarity(rows, conditions, vectors.dv, 1.0, state.worst)
             status = finish_step(problem, state, conditions.p, vectors, h, theta)
         if status != SOLVED:
             return status, k
