@@ -86,11 +86,8 @@ class Stepping:
         crossing = min(0.01, (layout.places[1] / scaling.front) ** 2)
         self.segments = integrator.segments(crossing, scaling.end_time, self.stable)
         self.flight = (getattr(integrator, "flight_step", None) or 0.0) / scaling.end_time
-        steps = sum(segment.steps for segment in self.segments)
-        last = float(targets[-1])
-        if until is not None:  # most beams have left after a T*
-            last = min(last, scaling.impact.slow_time_scale / scaling.end_time)
-        steps = round(steps * last)
+        left = math.inf if until is None else scaling.impact.slow_time_scale / scaling.end_time  # most beams after a T*
+        steps = round(sum(segment.steps for segment in self.segments) * min(float(targets[-1]), left))
         affordable("exudyn.integrator and mesh", steps, nodes, targets.size, MOST_WORK)
         if (expected := SECONDS * steps * nodes) > LONG:
             so_long = "up to" if self.flight else "about"
