@@ -148,7 +148,7 @@ class Recorder:
         self.record["kinetic_energy"] += beam.kinetic_energy(v[saved]).tolist()
         self.record["strain_energy"] += beam.strain_energy(q[saved]).tolist()
         self.record["stretch_energy"] += beam.stretch_energy(q[saved]).tolist()
-        largest = nodal_largest(moments)
+        largest = nodal_largest(moments)  # since the saved instant before, its place, and the one in the middle
         place, middle = beam.shape.place[largest.argmax(axis=1)], largest[:, np.argmin(np.abs(beam.shape.s))]
         self._keep_largest("moments", largest.max(axis=1), place, middle, anew=True)
         self.sums |= {name: values[-1] for name, values in after.items()}

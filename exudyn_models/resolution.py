@@ -144,9 +144,10 @@ def chosen_steps(integrator: Implicit, factor: float, mesh: Mesh, impact: Impact
         return dataclasses.replace(integrator, time_step=step)
     relative = integrator.default_step / factor
     if thin_front(impact.kappa_over_nu) and not returned:
+        # the front, x ~ √t, in the last step
         scaling, places = Scaling(impact, end), mesh.nodes(modelled_half_length(mesh, impact))
         k = min(max(int(np.searchsorted(places, scaling.front * scaling.length)), 1), places.size - 1)
-        relative = min(relative, 2.0 * PASSED * float(places[k] - places[k - 1]) / float(places[k]))  # x ~ √t
+        relative = min(relative, 2.0 * PASSED * float(places[k] - places[k - 1]) / float(places[k]))
     return dataclasses.replace(integrator, relative_step=relative)
 
 

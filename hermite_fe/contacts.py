@@ -20,9 +20,9 @@ only:
   so vanishes as elements shrink. Behind a moving front the exact reaction is zero, and noise of either sign there
   turns into pushes off the wall.
 
-Both are off unless stated, but ``hold`` in runs that measure what a pressing load changes. Neither acts after
-t_w = 0.005 T* (:data:`bent_beam.impact.WAVES_FELT`), from when on waves from the ends may move the zone. What was
-pulled is recorded as ``held_impulse``, and how hard as ``hold`` in the settings.
+Both are off unless stated; runs that measure what a pressing load changes take a ``hold`` by themselves. Neither acts
+after t_w = 0.005 T* (:data:`bent_beam.impact.WAVES_FELT`), from when on waves from the ends may move the zone. What a
+held constraint pulled is recorded as ``held_impulse``, and how hard as ``hold`` in the settings.
 """
 
 import dataclasses

@@ -138,7 +138,7 @@ def beam_model(
         dampings += (("material", impact.damping * bending_stiffness),)
     bent = impact.unbent_curvature - impact.curvature  # what of the bow is elastic
     bending = Bending(beam.lengths, beam.phi, relaxed, impact.bending_stiffness * bent, half.size - 1 if full else 0)
-    left = tuple(range(HELD[impact.left_end])) if full else (1,)  # the slope in the middle
+    left = tuple(range(HELD[impact.left_end])) if full else (1,)  # of a half beam the slope in its middle
     supports = left + tuple(range(beam.dofs - 2, beam.dofs - 2 + HELD[impact.right_end]))
     rows = before_the_wall(contact.rows(beam, facing, full=full), impact, supports)
     if impact.opposite_wall is not None:

@@ -9,8 +9,8 @@ must be a fraction of ℓ where the front is, steps a fraction of its travel ove
   (κ < ``THIN``) even ones over the zone that the run covers.
 - steps: constant at first, then in proportion to the time since impact; for a thin front constant.
 - **the first steps** of Signorini's scheme are so long that the front is three smallest elements thick after one of
-  them: it closes the nodes of the unresolved first instants together, of which each would otherwise strike the wall
-  and rebound separately ("double detachment", thesis 3.3.5; docs/numerics.md).
+  them. No mesh resolves the first instants: in short steps each node strikes the wall by itself and rebounds ("double
+  detachment", thesis 3.3.5), a long step of implicit Euler closes them together (docs/numerics.md).
 - integrator: Signorini at the new position, which leaves closed constraints exactly on the wall and does not rattle;
   Moreau–Jean when constraints rebound.
 - contact: unilateral; nothing is held unless asked for, except in runs that measure what a pressing load changes.

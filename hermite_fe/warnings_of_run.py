@@ -63,7 +63,7 @@ def end_warnings(impact: Impact, end_time: float, nodes: Array, far_field: FarFi
     place, _ = front(impact, end_time)
     half, last = float(nodes[-1]), float(nodes[-1] - nodes[-2])
     if place > half and (0.0 < impact.kappa_over_nu < 1.0 or impact.zone_pressure > 0.0):
-        yield (f"the contact may reach the end of the beam: it may spread to {place:.3g} m, the end is at {half:.3g} m")
+        yield f"the contact may reach the end of the beam: it may spread to {place:.3g} m, the end is at {half:.3g} m"
     emitted = impact.slow_time_scale * EMITTED
     reached, thickness = np.array([front(impact, t) for t in emitted]).T
     arrival = emitted + np.maximum(2.0 * half - reached, 0.0) * thickness / (2.0 * impact.wave_constant)
