@@ -99,7 +99,7 @@ def simulate(
         **settings_of_run(impact, choice, run),
     }
     history = history_of(impact, model, run, settings)
-    warnings = list(rounds_warnings(run.most_iterations))
+    warnings = rounds_warnings(run.most_iterations)
     if until is None and spreads(impact):
         warnings += resolution_warnings(impact, end, choice.nodes, choice.integrator)
         warnings += end_warnings(impact, end, choice.nodes, choice.far_field)
