@@ -1,22 +1,20 @@
-"""The impact as an Exudyn system for plain ``SolveDynamic``, and every combination of parts: run, or refused."""
+"""The impact as an Exudyn system for plain ``SolveDynamic``."""
 
 import dataclasses
 import gc
-import itertools
-import re
 import weakref
 
 import exudyn.itemInterface as items
 import numpy as np
 import pytest
 from exudyn.utilities import LoadSolutionFile
+from twins import in_units
 
 import exudyn_models
 from bent_beam import Impact
 from bent_beam.meshes import UniformMesh
 from bent_beam.method import method_from_tables
-from exudyn_models import CONTACTS, ELEMENTS, INTEGRATORS, ExudynModel
-from exudyn_models.building import _equal_elements
+from exudyn_models import ExudynModel
 from exudyn_models.contacts import Penalty, SegmentFriction
 from exudyn_models.elements import GeometricallyExact
 from exudyn_models.geometry import TrueGeometry
@@ -47,13 +45,6 @@ def test_a_second_wall_pushes_the_other_way():
     late = int(np.argmax(impulse)) + 1
     assert impulse[-1] < 0.9 * impulse.max() and force[:late].min() > -0.01 * force.max()
     assert force[late:].max() < 0.01 * force.max() and force[late:].min() < -0.05 * force.max()
-
-
-def test_the_equal_elements_of_a_zone_change_with_their_unit():
-    """Lengths in ``unit`` of l*, times in its square."""
-    impacts = [(Impact(1.0, 1.0, 40.0 * unit, 0.5 / unit, 1.0 / unit), 0.1 * unit**2) for unit in (1.0, 7.0)]
-    one, other = (np.array(_equal_elements(*asked).places) for asked in impacts)
-    assert one.size == other.size and other == pytest.approx(7.0 * one, rel=1e-9)
 
 
 def test_the_true_arc_is_not_stretched_by_its_first_velocities():
@@ -96,29 +87,6 @@ def test_items_are_in_si_units_and_sensors_agree_with_one_another():
     assert read["impulse"][-1, 0] == pytest.approx(unit * exact, rel=5e-3)
 
 
-@pytest.mark.filterwarnings("error")
-@pytest.mark.parametrize(("element", "integrator", "contact"), list(itertools.product(ELEMENTS, INTEGRATORS, CONTACTS)))
-def test_a_combination_of_parts_meets_the_theory_or_is_refused_with_its_reason(element, integrator, contact, capfd):
-    """Nothing is printed, and nothing deprecated used."""
-    parts = {"element": ELEMENTS[element](), "integrator": INTEGRATORS[integrator](), "contact": CONTACTS[contact]()}
-    reason = ExudynModel(**parts).refuses(SHORT)
-    if reason is not None:
-        assert re.match(rf"exudyn\.contact\.kind {contact} (needs|works on)", reason)
-        for kind in (exudyn_models.simulate, exudyn_models.build):
-            with pytest.raises(ValueError, match=re.escape(reason)):
-                kind(SHORT, **parts)
-        return
-    history = exudyn_models.simulate(SHORT, mesh=COARSE, save=5, **parts)
-    assert not any(capfd.readouterr())
-    assert history.array("total_impulse")[-1] == pytest.approx(impulse_of_theory(0.5), rel=0.02)
-    budget = history.energy_budget()
-    # explicit: the contact state is frozen for a step; 24 % when Exudyn repeats steps with a state of its own
-    assert abs(budget["defect"]) < 0.03 * (budget["loss_impact"] + budget["loss_viscous"])
-    if contact != "rigid":
-        _, read = solved(SHORT, mesh=COARSE, **parts)
-        assert read["impulse"][-1, 0] == pytest.approx(impulse_of_theory(0.5), rel=0.02)
-
-
 def test_one_setting_is_swapped_without_its_kind_and_the_rest_stays_chosen():
     table = {"integrator": {"spectral_radius": 0.9}, "contact": {"stiffness": 3e4, "damping": 20.0}}
     made = method_from_tables("exudyn", table)
@@ -131,13 +99,15 @@ def test_one_setting_is_swapped_without_its_kind_and_the_rest_stays_chosen():
         assert chosen == dataclasses.replace(open_ones, spectral_radius=0.9)
 
 
-def test_a_zone_of_exact_elements_is_solved_and_no_force_acts_at_the_first_touch():
-    _, read = solved(Impact.dimensionless(0.5), element=GeometricallyExact())
-    assert read["impulse"][-1, 0] == pytest.approx(impulse_of_theory(0.5), rel=2e-3) and read["force"][0, 0] == 0.0
+def test_a_zone_of_exact_elements_is_solved_in_any_unit_and_no_force_acts_at_the_first_touch():
+    """In units of 3 kg, 0.5 m and 4 s."""
+    _, read = solved(in_units(Impact.dimensionless(0.5), {"kg": 3.0, "m": 0.5, "s": 4.0}), element=GeometricallyExact())
+    assert read["impulse"][-1, 0] == pytest.approx(3.0 * 0.5 / 4.0 * impulse_of_theory(0.5), rel=2e-3)
+    assert read["force"][0, 0] == 0.0
 
 
-def test_sensors_are_those_of_the_beam_where_a_user_adds_a_mass_on_a_spring():
-    model = exudyn_models.build(SHORT, mesh=COARSE)
+def test_sensors_and_solution_file_are_those_of_the_beam_where_a_user_adds_a_mass_on_a_spring(tmp_path):
+    model = exudyn_models.build(SHORT, mesh=COARSE, save=10, file=str(tmp_path / "solution.txt"))
     mass = model.mbs.AddNode(items.NodePoint2D())
     model.mbs.AddObject(items.MassPoint2D(mass=1e-3, nodeNumber=mass))
     ends = [(model.nodes[0], 1), (mass, 1)]
@@ -147,6 +117,7 @@ def test_sensors_are_those_of_the_beam_where_a_user_adds_a_mass_on_a_spring():
     model.mbs.SolveDynamic(model.settings)
     impulse = model.mbs.GetSensorStoredData(model.sensors["impulse"])[-1, 1]
     assert impulse == pytest.approx(impulse_of_theory(0.5), rel=0.02)
+    assert LoadSolutionFile(str(tmp_path / "solution.txt"))["nRows"] == 11
 
 
 def test_nothing_holds_the_system_of_a_run_that_is_over():
@@ -156,8 +127,3 @@ def test_nothing_holds_the_system_of_a_run_that_is_over():
     exudyn_models.simulate(SHORT, mesh=COARSE, save=2, **note)
     gc.collect()
     assert kept and all(one() is None for one in kept)
-
-
-def test_a_solution_file_is_there_for_exudyns_viewer(tmp_path):
-    solved(SHORT, mesh=MESH, save=10, file=str(tmp_path / "solution.txt"))
-    assert LoadSolutionFile(str(tmp_path / "solution.txt"))["nRows"] == 11

@@ -2,11 +2,11 @@
 
 import itertools
 import math
+import re
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from numpy.testing import assert_allclose
 
 import exudyn_models
 from bent_beam import Impact
@@ -17,19 +17,21 @@ from bent_beam.meshes import NodesMesh, ScaleFreeMesh, UniformMesh
 from comparison.matching import answer
 from comparison.rows import MatchQuestion
 from comparison.store import RunStore
-from exudyn_models import ExudynModel, stepping
+from exudyn_models import CONTACTS, ELEMENTS, INTEGRATORS, ExudynModel, stepping
 from exudyn_models.contacts import Penalty, Rigid, SegmentFriction
 from exudyn_models.contacts.base import HeldStrip
 from exudyn_models.contacts.penalty import PenaltyRun
-from exudyn_models.elements import ANCFCable, Beam, GeometricallyExact
+from exudyn_models.elements import ANCFCable, Beam
 from exudyn_models.geometry import LinearLimit, TrueGeometry
-from exudyn_models.integrators import RK44, GeneralizedAlpha, Newmark
+from exudyn_models.integrators import RK44, GeneralizedAlpha
 from exudyn_models.method import held_for
 from exudyn_models.recording import nodal_largest
 from exudyn_models.segments import growing_segments
 from theory import contact_parameters
 
-HALF = Impact.dimensionless(0.5)
+HALF, SHORT = Impact.dimensionless(0.5), Impact.dimensionless(0.5, length=8.0)
+IMPULSE = 4.0 * math.sqrt(0.2 / math.pi) * float(contact_parameters(0.5).r0)  # of these after 0.1 t*
+PLAIN = UniformMesh(0.15)
 verify = pytest.mark.verify
 
 
@@ -74,13 +76,6 @@ def test_elements_that_are_chosen_resolve_the_zone_and_the_bending_ahead_of_it(k
     front, lengths = float(contact_parameters(kappa_over_nu).lambda0) * math.sqrt(0.4), np.diff(places)
     assert front > zone * lengths[0] and places.size < 600
     assert math.sqrt(2.0 * kappa_over_nu * 0.4) > ahead * lengths[np.searchsorted(places, front)]
-
-
-@verify
-def test_hits_of_a_damped_thin_front_take_no_impulse():
-    """7 % were missing with the damping of hits that an undamped front needs. The Hermite path's, converged: 0.917."""
-    history = exudyn_models.simulate(Impact.whole_beam(0.02, relative_damping=1e-3), end_time=1e-3, save=20)
-    assert history.array("total_impulse")[-1] == pytest.approx(0.9172, rel=6e-3)
 
 
 @pytest.mark.parametrize(("eta", "refine", "expected"), [(0.0, 1.0, 40.0), (0.0, 0.5, 20.0), (1e-3, 1.0, 3.0)])
@@ -129,25 +124,30 @@ def test_nothing_is_held_once_waves_may_be_back():
     assert np.ptp(history.array("held_impulse")[history.time >= 1.05 * until]) == 0.0
 
 
-@pytest.mark.parametrize(
-    "parts",
-    [
-        pytest.param({"element": GeometricallyExact()}, marks=verify),
-        pytest.param({"contact": Rigid(), "integrator": Newmark(relative_step=5e-3)}, marks=verify),
-        {"contact": Penalty(relative_stiffness=3.0, relative_damping=1.0, hold=4)},
-        pytest.param({"contact": SegmentFriction(friction=0.3)}, marks=verify),
-        pytest.param({"integrator": Newmark(relative_step=5e-3)}, marks=verify),
-        pytest.param({"integrator": GeneralizedAlpha(spectral_radius=0.0)}, marks=verify),
-        pytest.param({"geometry": LinearLimit(1e-2)}, marks=verify),
-    ],
-    ids=str,
-)
-def test_swapped_part_keeps_the_answer(parts):
-    history = exudyn_models.simulate(HALF, mesh=coarse(), save=100, **parts)
-    assert off(history) < 5e-3
-    x, model = history.array("x"), history.settings
-    slope = 0.5 * x[-1] * model["amplitude"] / model["amplitude_of_the_real_beam"]  # the bow is an arc, not a parabola
-    assert_allclose(history.array("gap")[0], 0.25 * x**2, rtol=slope**2, atol=1e-12)
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize(("element", "integrator", "contact"), list(itertools.product(ELEMENTS, INTEGRATORS, CONTACTS)))
+def test_a_combination_of_parts_meets_the_theory_or_is_refused_with_its_reason(element, integrator, contact, capfd):
+    """Nothing is printed, and nothing deprecated used. Two elements in the zone of an explicit run, else 15 in √t."""
+    parts = {"element": ELEMENTS[element](), "integrator": INTEGRATORS[integrator](), "contact": CONTACTS[contact]()}
+    reason = ExudynModel(**parts).refuses(SHORT)
+    if reason is not None:
+        assert re.match(rf"exudyn\.contact\.kind {contact} (needs|works on)", reason)
+        for kind in (exudyn_models.simulate, exudyn_models.build):
+            with pytest.raises(ValueError, match=re.escape(reason)):
+                kind(SHORT, **parts)
+        return
+    explicit = parts["integrator"].explicit
+    history = exudyn_models.simulate(SHORT, mesh=PLAIN if explicit else coarse(SHORT, 1.04, 15), save=40, **parts)
+    assert not any(capfd.readouterr())
+    assert off(history) < (0.12 if explicit else 5e-3)
+    budget = history.energy_budget()
+    # explicit: the contact state is frozen for a step; 24 % when Exudyn repeats steps with a state of its own
+    assert abs(budget["defect"]) < (0.03 if explicit else 1e-5) * (budget["loss_impact"] + budget["loss_viscous"])
+    if contact != "rigid":
+        model = exudyn_models.build(SHORT, mesh=PLAIN, **parts)
+        model.mbs.SolveDynamic(model.settings)
+        impulse = model.mbs.GetSensorStoredData(model.sensors["impulse"])[-1, 1]
+        assert impulse == pytest.approx(IMPULSE, rel=0.02)
 
 
 @pytest.mark.parametrize("friction", [0.0, 0.3, 1e3])  # smooth, sliding, sticking
@@ -158,8 +158,7 @@ def test_segment_contact_loses_what_its_forces_do(friction):
     history = exudyn_models.simulate(HALF, mesh=mesh, save=10, contact=SegmentFriction(friction))
     budget = history.energy_budget()
     assert abs(budget["defect"]) < 1e-6 * sum(value for name, value in budget.items() if name.startswith("loss"))
-    exact = 4.0 * math.sqrt(0.2 / math.pi) * float(contact_parameters(0.5).r0)  # friction changes nothing
-    assert history.array("total_impulse")[-1] == pytest.approx(exact, rel=2e-3)
+    assert history.array("total_impulse")[-1] == pytest.approx(IMPULSE, rel=2e-3)  # friction changes nothing
     assert balance_of(history).warnings == []  # its chords open and close by forces of no consequence
 
 
@@ -209,7 +208,7 @@ def test_a_force_that_is_read_wrong_shows_against_the_momentum(monkeypatch):
 
     def judged():
         scheme = GeneralizedAlpha(spectral_radius=0.2)
-        return balance_of(exudyn_models.simulate(pressed, mesh=coarse(pressed), save=20, integrator=scheme))
+        return balance_of(exudyn_models.simulate(pressed, mesh=coarse(pressed, 1.04, 15), save=20, integrator=scheme))
 
     def more(self, *of):
         pushes, *rest = forces(self, *of)
