@@ -149,11 +149,11 @@ STEP = 1e-3
 
 
 @every_and_the_guide_s
-def test_each_loss_is_booked_and_a_false_velocity_or_damping_is_missing_from_the_budget(make: Make) -> None:
+def test_each_loss_is_booked_and_a_false_velocity_is_missing_from_the_budget(make: Make) -> None:
     impact = Impact.dimensionless(0.5, length=2.0, damping=1e-3, epsilon_alpha=0.5)  # of all kinds, pressed on
     model = beam_model(impact, UniformMesh(0.05).nodes(1.0), NodeContact(), Sponge(), full=False)
     begin = model.system, model.displacement, model.velocity
-    right, fast, damped = (Stepper(*begin, make(STEP), 0.2) for _ in range(3))
+    right, fast = (Stepper(*begin, make(STEP), 0.2) for _ in range(2))
     start, last = account(right.sums()), right.instants.size - 1
     assert right.advance_to(last) == 0
     sums = right.sums()
@@ -161,19 +161,12 @@ def test_each_loss_is_booked_and_a_false_velocity_or_damping_is_missing_from_the
     for cause in ("viscous", "material", "absorbed", "impact"):
         assert sums[f"loss_{cause}"] > 1e-6 * start, cause
     assert abs(account(sums) - start) < 1e-11 * start
-    # a velocity; generalised-α also misses the damping force of what v̇ was not told of
+    # generalised-α also misses the damping force of what v̇ was not told of
     fast.advance_to(last // 2)
     brought = (1.04**2 - 1.0) * fast.sums()["kinetic_energy"]
     fast.state.v[:] *= 1.04
     fast.advance_to(last)
     assert account(fast.sums()) - start == pytest.approx(brought, rel=1e-3)
-    # a loss: the damping matrix of the account is 3 % off the one that damps
-    matrices = damped.problem.matrices
-    damped.problem = damped.problem._replace(matrices=matrices._replace(parts=1.03 * matrices.parts))
-    damped.advance_to(last)
-    sums = damped.sums()
-    false = 0.03 / 1.03 * (sums["loss_viscous"] + sums["loss_material"] + sums["loss_absorbed"])
-    assert account(sums) - start == pytest.approx(false, rel=1e-8)
 
 
 @pytest.mark.parametrize(
