@@ -1,4 +1,4 @@
-"""The impact as an Exudyn system for plain ``SolveDynamic``, and model scripts, whose numbers agree with the exact ones."""
+"""The impact as an Exudyn system for plain ``SolveDynamic``; model scripts, whose numbers agree with the exact ones."""
 
 import dataclasses
 import gc
