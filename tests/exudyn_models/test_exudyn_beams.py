@@ -1,7 +1,6 @@
 """Beams of which nothing is one: both paths say the same, and a half of a beam is half of it, by every part."""
 
 import math
-import re
 
 import numpy as np
 import pytest
@@ -116,7 +115,7 @@ def test_a_beam_is_its_half_and_the_image_of_it_however_small_its_deflections_ar
     ],
 )
 def test_without_contact_y0_is_the_motion(element, psi, chi, tension, more):
-    """In units in which nothing is one, damped; what the run says of itself is true."""
+    """In units in which nothing is one, damped."""
     loads = {"epsilon_alpha": 0.4, "epsilon_psi": psi, "epsilon_chi": chi, "epsilon_axial": tension, "damping": 0.05}
     impact = in_units(Impact.dimensionless(0.5, **loads).replace(**more), OTHER)
     mesh = NodesMesh(tuple(np.linspace(0.0, 1.0, 41)))
@@ -135,8 +134,6 @@ def test_without_contact_y0_is_the_motion(element, psi, chi, tension, more):
     assert (history.settings["ends"] == "free") is (psi == 0.0)
     if tension:  # it arrives unbent, however stretched
         assert history.array("strain_energy")[0] < 1e-12 and history.array("largest_moment")[0] < 1e-9
-    said = [float(re.findall(r"[\d.]+", warning)[0]) for warning in history.warnings]
-    assert said == pytest.approx([110.0, 8.0**0.5], abs=0.02)  # depth, % of V₀t; half length, Λ
 
 
 @pytest.mark.parametrize(

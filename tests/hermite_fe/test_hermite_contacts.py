@@ -79,17 +79,6 @@ def test_half_and_full_beam_agree(name: str, contact: Contact) -> None:
     assert (half.dataset.attrs["symmetry"], full.dataset.attrs["symmetry"]) == ("half", "full")
 
 
-def test_the_zone_stays_on_the_wall_with_the_hold() -> None:
-    for name, most in (("signorini_position", 1e-9), ("position_velocity_acceleration", 1e-9), ("moreau_jean", 1e-4)):
-        history = run(INTEGRATORS[name], NodeContact(hold=16))
-        place = history.dataset.x.values[history.array("in_contact")[-1]].max()
-        inside = history.dataset.x.values < 0.9 * place
-        assert np.abs(history.array("gap")[-1][inside]).max() < most * 0.3
-        assert history.array("held_impulse")[-1] < 0.0
-        assert history.settings["hold"]["until"] == 0.3
-        assert history.settings["hold"]["pull"] > 0.0
-
-
 @pytest.mark.parametrize("contact", [NodeContact(), MiddleContact()])
 def test_rows_of_a_whole_beam_are_counted_from_the_middle_to_either_end(contact: Contact) -> None:
     rows = contact.rows(HermiteBeam(np.linspace(-1.0, 1.0, 9), 1.0, 1.0), np.zeros(18), full=True)
@@ -119,7 +108,7 @@ def test_no_hold_acts_once_waves_may_be_back() -> None:
     parts = {"mesh": ScaleFreeMesh(0.002, 1.02), "contact": NodeContact(hold=16)}
     history = simulate(Impact.whole_beam(0.3), end_time=0.02, save=80, **parts)
     held = history.array("held_impulse")
-    assert history.settings["hold"]["until"] == pytest.approx(0.005)
+    assert history.settings["hold"]["until"] == pytest.approx(0.005) and history.settings["hold"]["pull"] > 0.0
     assert held[-1] == held[np.searchsorted(history.time, 0.0052)] < 0.0
 
 
