@@ -72,7 +72,7 @@ def test_the_true_arc_is_not_stretched_by_its_first_velocities():
 
 def test_items_are_in_si_units_and_sensors_agree_with_one_another():
     """Momentum is lost to the force."""
-    model, read = solved(STEEL, mesh=UniformMesh(0.015), save=300)
+    model, read = solved(STEEL, mesh=UniformMesh(0.015), save=1500)
     pulled, stretched = STEEL.replace(axial_force=50.0), GeometricallyExact(axial_stiffness=4e6)  # N
     pulled = exudyn_models.build(pulled, mesh=UniformMesh(0.015), element=stretched)
     assert pulled.mbs.GetObject(pulled.bodies[0])["axialStiffness"] == pytest.approx(4e6)

@@ -231,12 +231,8 @@ def test_recorded_moments_are_those_that_exudyn_puts_out(impact: Impact) -> None
     data.SetODE2Coordinates_t(np.zeros_like(q))
     kind = exu.OutputVariableType.TorqueLocal
     middles = np.zeros(beam.lengths.size) if beam.scaling.shear_length else beam.lengths / 2  # as Exudyn counts places
-    theirs = np.array(
-        [
-            np.ravel(beam.mbs.GetObjectOutputBody(body, kind, [at, 0.0, 0.0]))[-1]
-            for body, at in zip(beam.bodies, middles)
-        ]
-    )
+    torques = (beam.mbs.GetObjectOutputBody(body, kind, [at, 0.0, 0.0]) for body, at in zip(beam.bodies, middles))
+    theirs = np.array([np.ravel(torque)[-1] for torque in torques])
     assert beam.bending_moments(q).mean(axis=-1) == pytest.approx(theirs, rel=1e-6, abs=1e-7 * np.abs(theirs).max())
     assert np.abs(theirs).max() > 1e-5
 
@@ -266,9 +262,8 @@ def drawn() -> list[tuple[float, float, float, float]]:
 
 
 @pytest.mark.verify
-@pytest.mark.parametrize("case", drawn(), ids=lambda case: ", ".join(f"{x:.3g}" for x in case))
-def test_drawn_beams_agree_with_the_hermite_path_and_the_explicit_code_within_bars(case) -> None:
-    kappa, damping, length, g = case
+@pytest.mark.parametrize(("kappa", "damping", "length", "g"), drawn())
+def test_drawn_beams_agree_with_the_hermite_path_and_the_explicit_code_within_bars(kappa, damping, length, g) -> None:
     impact = Impact.whole_beam(kappa, relative_damping=damping, shear_length=length, shear_ratio=g)
     exudyn, hermite = (bounce(impact, method) for method in (ExudynModel(), HermiteFE()))
     fine, half = (leapfrog.whole_impact(kappa, damping, length, g, n, 1.3) for n in (200, 100))

@@ -1,5 +1,5 @@
 """A wall that gives way: springs that never pull, over partly covered elements, and a stop. Held ends stand in
-``test_hermite_beam.py``, plates and rigid stops of both paths in ``exudyn_models/test_exudyn_supports.py``."""
+``test_hermite_beam.py``; plates, stops and landings of both paths in ``exudyn_models/test_exudyn_supports.py``."""
 
 import numpy as np
 import pytest
@@ -10,7 +10,7 @@ from bent_beam.measure.reduction import wall_peaks
 from bent_beam.measure.whole_impact import hits
 from bent_beam.meshes import UniformMesh
 from hermite_fe import HermiteFE
-from hermite_fe.elastic_wall import Springs, landing, push, stored_energy
+from hermite_fe.elastic_wall import Springs, push, stored_energy
 from hermite_fe.integrators import Midpoint
 from theory.elastic_stop import SwungBeam
 
@@ -57,17 +57,6 @@ def test_a_partly_covered_element_pushes_point_by_point_and_a_stop_as_one_spring
             assert (np.sqrt(held), peaks[2]) == pytest.approx((max(new[dof], 0.0),) * 2)
             assert (new - q)[dof] * total == pytest.approx(held - stored_energy(stop, q) + loss, abs=1e-12)
             assert force == pytest.approx(np.where(np.arange(4) == dof, total, 0.0)) and peaks[3] == total
-
-
-@pytest.mark.parametrize("length", [1.0, 1e-9])
-def test_dashpots_below_a_beam_that_lands_all_at_once_push_with_its_flow(length) -> None:
-    """c∫v dx over the plate, from the cubic v; nothing where one end is far behind the other, in any unit of length."""
-    springs = Springs(2.0, 3.0, np.zeros(6), np.array([0.8, 0.5]), np.zeros(2), 0, 2, -1, 1.0, 3.0)
-    above, v = np.array([-1e-3, 0.0] * 3) * length, np.array([2.0, 0.7, 1.5, -0.4, 1.8, 0.3])
-    flow = 0.8 * (1.75 + 0.8 / 12.0 * 1.1) + 0.5 * (1.65 - 0.5 / 12.0 * 0.7)
-    assert landing(springs, above, -above, v) == pytest.approx((3.0 * flow, 3.0 * 2.0))
-    for before, after in ((above, 0.5 * above), (above - np.array([0.0, 0.0, 0.0, 0.0, length, 0.0]), -above)):
-        assert landing(springs, before, after, v) == (0.0, 0.0)
 
 
 def test_a_beam_that_comes_to_rest_on_its_wall_pushes_with_its_weight() -> None:

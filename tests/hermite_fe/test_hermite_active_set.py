@@ -1,4 +1,4 @@
-"""The compiled contact problem and its factors against truth: every active set tried, densely."""
+"""The compiled contact problem and its factors against the conditions of its one solution."""
 
 import numpy as np
 import pytest
@@ -6,7 +6,7 @@ from hermite_parts import dense
 from numpy.typing import NDArray
 
 from hermite_fe.active_set import CYCLING, MOST_ROUNDS, SOLVED, find_wrong, solve_constrained
-from hermite_fe.constraints import ContactLaw, constraints_of
+from hermite_fe.constraints import Constraints, ContactLaw, constraints_of
 from hermite_fe.stepping import prepare, problem_of
 from hermite_fe.system import ContactRows, System
 
@@ -38,28 +38,24 @@ def random_system(random: np.random.Generator) -> System:
     )
 
 
-def truth(system: System, b: Array, target: Array, candidate: Array, held: Array) -> tuple[Array, Array]:
-    """x and p of the one active set, out of all, that breaks no sign (or breaks them least: round-off)."""
-    rows, n = system.contacts, system.dofs
-    m = len(rows)
-    G = np.zeros((m, n))
-    np.put_along_axis(G, rows.dofs, rows.factors, axis=1)
-    keep = np.setdiff1d(np.arange(n), system.supports)
-    inverse = np.zeros((n, n))
-    inverse[np.ix_(keep, keep)] = np.linalg.inv(dense(system.mass)[np.ix_(keep, keep)])
-    W, free = G @ inverse @ G.T, G @ inverse @ b - target
-    sets = (np.arange(2**m)[:, None] >> np.arange(m)) & 1 == 1
-    sets = sets[np.all(sets | ~held, axis=1) & np.all(~sets | candidate | held, axis=1)]
-    both = sets[:, :, None] & sets[:, None, :]
-    p = np.linalg.solve(np.where(both, W, np.eye(m)), np.where(sets, -free, 0.0)[:, :, None])[:, :, 0]
-    slack = p @ W + free
-    worst = np.maximum(np.where(held, 0.0, -p), np.where(candidate & ~sets, -slack, 0.0)).max(axis=1)
-    best = int(np.argmin(worst))
-    return inverse @ (b + G.T @ p[best]), p[best]
+def unconstrained(system: System, b: Array) -> Array:
+    x, keep = np.zeros(system.dofs), np.setdiff1d(np.arange(system.dofs), system.supports)
+    x[keep] = np.linalg.solve(dense(system.mass)[np.ix_(keep, keep)], b[keep])
+    return x
+
+
+def missed(system: System, conditions: Constraints, held: NDArray[np.bool_], b: Array, x: Array) -> float:
+    """By how much x and p miss what one x alone fulfils: Mx = b + Gᵀp, and of each row a gap or a push."""
+    rows, p, forces = system.contacts, conditions.p, dense(system.mass) @ x - b
+    np.subtract.at(forces, rows.dofs, p[:, None] * rows.factors)
+    forces[list(system.supports)] = x[list(system.supports)]
+    gap = np.einsum("jk,jk->j", rows.factors, x[rows.dofs]) - conditions.target
+    contact = np.where(held, gap, np.where(conditions.candidate, np.minimum(gap, p), p))
+    return float(max(np.abs(forces).max(), np.abs(contact).max()))
 
 
 @pytest.mark.parametrize("seeds", [range(120), pytest.param(range(1000, 11000), marks=pytest.mark.verify)], ids=len)
-def test_contact_problems_are_solved_as_by_trying_every_active_set(seeds: range) -> None:
+def test_contact_problems_are_solved(seeds: range) -> None:
     """Random problems, degenerate ones among them, each from three wrong guesses, and by the fall-back from none."""
     for seed in seeds:
         random = np.random.default_rng(seed)
@@ -74,12 +70,9 @@ def test_contact_problems_are_solved_as_by_trying_every_active_set(seeds: range)
         if degenerate < 0.1:
             b, target = np.round(b), np.zeros(m)
         elif degenerate < 0.3:  # some rows just touch: no gap and no reaction
-            alone, _ = truth(system, b, np.zeros(m), np.zeros(m, bool), np.zeros(m, bool))
-            there = np.einsum("jk,jk->j", system.contacts.factors, alone[system.contacts.dofs])
+            there = np.einsum("jk,jk->j", system.contacts.factors, unconstrained(system, b)[system.contacts.dofs])
             target = np.where(random.random(m) < random.choice([0.5, 0.9]), there, target)
         candidate, held = random.random(m) < 0.9, random.random(m) < 0.1
-        exact_x, exact_p = truth(system, b, target, candidate, held)
-        scale = 1.0 + np.abs(exact_x).max() + np.abs(exact_p).max()
         conditions.target[:], conditions.candidate[:], conditions.least[:] = target, candidate, -1.0 * held
         x = np.zeros(n)
         # from one guess to the next the factors are kept; one by one where exchanging many at once runs in a circle
@@ -91,5 +84,5 @@ def test_contact_problems_are_solved_as_by_trying_every_active_set(seeds: range)
                 assert status == CYCLING or (status == SOLVED and wrong == 0), seed
                 continue
             assert status == SOLVED, seed
-            assert np.abs(x - exact_x).max() < 1e-7 * scale, seed
-            assert np.abs(conditions.p - exact_p).max() < 1e-7 * scale, seed
+            scale = 1.0 + np.abs(x).max() + np.abs(conditions.p).max()
+            assert missed(system, conditions, held, b, x) < 1e-9 * scale, seed
