@@ -1,13 +1,16 @@
-"""The compiled contact problem and its factors against the conditions of its one solution."""
+"""The compiled contact problem against the conditions of its one solution, and its factors against LAPACK's."""
 
 import numpy as np
 import pytest
 from hermite_parts import dense
 from numpy.typing import NDArray
+from scipy.linalg import cho_solve_banded, cholesky_banded
 
+from bent_beam.meshes import ScaleFreeMesh
 from hermite_fe.active_set import CYCLING, MOST_ROUNDS, SOLVED, find_wrong, solve_constrained
+from hermite_fe.beam import HermiteBeam
 from hermite_fe.constraints import Constraints, ContactLaw, constraints_of
-from hermite_fe.stepping import prepare, problem_of
+from hermite_fe.stepping import Problem, prepare, problem_of
 from hermite_fe.system import ContactRows, System
 
 Array = NDArray[np.float64]
@@ -38,6 +41,13 @@ def random_system(random: np.random.Generator) -> System:
     )
 
 
+def ready(system: System) -> tuple[Problem, Constraints]:
+    """A system with its mass as the step matrix, and one set of conditions."""
+    problem = problem_of(system, ContactLaw())
+    prepare(problem, 0.0, 0.0, 1.0, 1.0)
+    return problem, constraints_of(problem.rows)
+
+
 def unconstrained(system: System, b: Array) -> Array:
     x, keep = np.zeros(system.dofs), np.setdiff1d(np.arange(system.dofs), system.supports)
     x[keep] = np.linalg.solve(dense(system.mass)[np.ix_(keep, keep)], b[keep])
@@ -60,9 +70,7 @@ def test_contact_problems_are_solved(seeds: range) -> None:
     for seed in seeds:
         random = np.random.default_rng(seed)
         system = random_system(random)
-        problem = problem_of(system, ContactLaw())
-        prepare(problem, 0.0, 0.0, 1.0, 1.0)
-        conditions = constraints_of(problem.rows)
+        problem, conditions = ready(system)
         n, m = system.dofs, len(system.contacts)
         b = random.normal(size=n)
         target = random.normal(size=m)
@@ -86,3 +94,16 @@ def test_contact_problems_are_solved(seeds: range) -> None:
             assert status == SOLVED, seed
             scale = 1.0 + np.abs(x).max() + np.abs(conditions.p).max()
             assert missed(system, conditions, held, b, x) < 1e-9 * scale, seed
+
+
+def test_the_factors_solve_like_lapack_s() -> None:
+    """The step matrix of a strongly graded beam."""
+    beam = HermiteBeam(ScaleFreeMesh(element_length=1e-3, growth=1.02).nodes(10.0), 1.0, 1.0)
+    bands, one = beam.mass() + 1e-6 * beam.stiffness(), ContactRows(dofs=[[0]], factors=[[1.0]], gap=[0.0])
+    problem, conditions = ready(System(mass=bands, stiffness=np.zeros((1, beam.dofs)), contacts=one))
+    known = np.random.default_rng(0).normal(size=(8, beam.dofs))
+    right, ours = known @ dense(bands), np.zeros_like(known)
+    for b, x in zip(right, ours):
+        assert solve_constrained(problem.solver, problem.rows, conditions, b, x, MOST_ROUNDS) == SOLVED
+    lapack = cho_solve_banded((cholesky_banded(bands, lower=True), True), right.T).T
+    assert np.abs(ours - known).max() < 5.0 * np.abs(lapack - known).max() < 5e-6

@@ -63,10 +63,7 @@ def is_half_of(full: ImpactHistory, half: ImpactHistory, within: float, *more: s
 
 @pytest.mark.parametrize(
     ("name", "contact"),
-    [
-        ("signorini_position", QuarterContact()),
-        ("moreau_jean", AdhesiveContact(pull=300.0)),
-    ],
+    [("signorini_position", QuarterContact()), ("moreau_jean", AdhesiveContact(pull=300.0))],
     ids=str,
 )
 def test_half_and_full_beam_agree(name: str, contact: Contact) -> None:
