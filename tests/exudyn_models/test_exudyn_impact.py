@@ -20,7 +20,6 @@ from comparison.store import RunStore
 from exudyn_models import CONTACTS, ELEMENTS, INTEGRATORS, ExudynModel, stepping
 from exudyn_models.contacts import Penalty, Rigid, SegmentFriction
 from exudyn_models.contacts.base import HeldStrip
-from exudyn_models.contacts.segment_friction import _Run as SegmentRun
 from exudyn_models.elements import ANCFCable, Beam
 from exudyn_models.geometry import LinearLimit, TrueGeometry
 from exudyn_models.integrators import RK44, GeneralizedAlpha
@@ -248,21 +247,3 @@ def test_what_no_theory_of_a_zone_needs_is_left_alone():
     history = exudyn_models.simulate(zone, mesh=mesh, end_time=0.1, save=5)
     assert history.array("gap")[-1].min() < -1.0  # of what would be inside the wall without one, and far away
     assert history.contact_positions(-1).max() == pytest.approx(1.5 * math.sqrt(2.0 * 0.1 / 0.3), rel=0.1)
-
-
-def test_a_penalty_that_is_too_soft_is_told_by_how_deep_the_beam_is_in_the_wall() -> None:
-    """In shares of V₀t, from a hundredth of the run on."""
-    method = ExudynModel(refine=0.25, contact=Penalty(relative_stiffness=0.1))
-    run = method.simulate(Impact.dimensionless(0.5).replace(velocity=3.0), end_time=0.02, save=200)
-    late = run.time > 0.01 * run.time[-1]
-    deepest = (-run.array("gap")[late].min(axis=1) / (3.0 * run.time[late])).max()
-    assert deepest > 0.02 and f"enters the wall by up to {deepest:.2%} of V0 t" in run.warnings[0]
-
-
-def test_a_chord_contradicts_its_state_by_the_force_of_its_spring_on_its_gap():
-    """In the wall and open; off the wall and closed without a push. Two sound ones are between them."""
-    contact = SimpleNamespace(stiffness=np.array([2.0, 2.0, 2.0, 4.0]))
-    gap, push = np.array([-0.5, -0.5, 0.25, 0.25]), np.array([1.0, 1.0, 0.5, 0.0])
-    contact._pushes = lambda q, v: (gap, push, None)
-    found = SegmentRun.contradictions(contact, None, None, np.array([False, True, False, True]))
-    assert found.tolist() == [1.0, 0.0, 0.0, 1.0]

@@ -1,12 +1,10 @@
-"""What is refused, how failures end, when the contact states of a step have settled, and what a run warns of: each
-threshold, a little below it and a little beyond."""
+"""What is refused, how failures end, and when the contact states of a step have settled."""
 
 from functools import partial
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from histories import history_of
 
 import exudyn_models
 from bent_beam import Impact, SimulationError
@@ -15,13 +13,12 @@ from bent_beam.method import method_from_tables
 from exudyn_models import ExudynModel
 from exudyn_models.contacts import Penalty, Rigid, SegmentFriction
 from exudyn_models.contacts.penalty import SpringsRun
+from exudyn_models.contacts.segment_friction import _Run as SegmentRun
 from exudyn_models.elements import ANCFCable
-from exudyn_models.geometry import Scaling, TrueGeometry
+from exudyn_models.geometry import TrueGeometry
 from exudyn_models.integrators import RK44, GeneralizedAlpha, Newmark, VelocityVerlet
-from exudyn_models.resolution import far_field
 from exudyn_models.settling import ANY, Settling
 from exudyn_models.solvers import NewtonSolver
-from exudyn_models.warnings_of_run import warnings_of_run
 
 SHORT, WHOLE = Impact.dimensionless(0.5, length=8.0), Impact.whole_beam(0.5)
 HINGED = WHOLE.replace(left_end="hinged", right_end="hinged")
@@ -191,6 +188,15 @@ def test_exchanges_that_go_in_a_circle_are_no_proof_that_no_state_is_consistent(
     assert contact.forces == pytest.approx(np.full(3, 1 / 3), rel=1e-12)
 
 
+def test_a_chord_contradicts_its_state_by_the_force_of_its_spring_on_its_gap():
+    """In the wall and open; off the wall and closed without a push. Two sound ones are between them."""
+    contact = SimpleNamespace(stiffness=np.array([2.0, 2.0, 2.0, 4.0]))
+    gap, push = np.array([-0.5, -0.5, 0.25, 0.25]), np.array([1.0, 1.0, 0.5, 0.0])
+    contact._pushes = lambda q, v: (gap, push, None)
+    found = SegmentRun.contradictions(contact, None, None, np.array([False, True, False, True]))
+    assert found.tolist() == [1.0, 0.0, 0.0, 1.0]
+
+
 @pytest.mark.parametrize("late", [0.1, 0.9])
 def test_a_plate_that_lands_at_once_does_so_early_or_late_in_a_step_but_not_bit_by_bit(late):
     """c b V of its dashpots; a difference of the depths of 1e-3 of what it falls in the step is no such landing."""
@@ -206,88 +212,3 @@ def test_a_contact_without_a_consistent_state_is_counted_and_ends():
     """Closed it pulls, open it has entered the wall."""
     settling = settled(Pressed(-np.eye(1), np.ones(1)))
     assert (settling.cycles, settling.unsettled) == (1, 0)
-
-
-IMPACT = Impact.dimensionless(0.5, length=1000.0)
-PLACES = np.linspace(0.0, 40.0, 401)  # Λ
-
-
-def stated(*, impact=IMPACT, places=PLACES, given=True, half_length=40.0, lost=0.0, slender=True, settles=True, **run):
-    """The warnings of a sound run but for what is given: ``in_wall`` is a place, Λ, of a beam that is else 1 before its
-    wall; ``velocity_y``, ``wall_y`` and ``wall_slope`` are those of its shape; ``lost`` is given back, J, and taken."""
-    parts = {"step": 1e-3, "unsettled": 0, "cycles": 0, "deepest": 0.0, "held": 0.0, "slope": 0.0, "in_wall": 0.0} | run
-    scaling, flat, time = Scaling(impact, 1.0), np.zeros(places.size), np.linspace(0.0, 1.0, run.get("instants", 2))
-    shape = {name: flat + run.get(name, 0.0) for name in ("velocity_y", "wall_y", "wall_slope")}
-    shape = SimpleNamespace(s=places, y=flat - 1.0, slender=slender, **shape)
-    record = {"time": time, "y": [2.0 * np.isclose(places, parts["in_wall"]) - 1.0], "slope": [flat - parts["slope"]]}
-    stepping = SimpleNamespace(
-        segments=[SimpleNamespace(length=0.2), SimpleNamespace(length=parts["step"])],
-        settling=SimpleNamespace(unsettled=parts["unsettled"], cycles=parts["cycles"], steps=1000) if settles else None,
-        chosen=SimpleNamespace(mesh_given=given),
-        layout=SimpleNamespace(places=places, half_length=half_length, scaling=scaling),
-        run=SimpleNamespace(
-            record=record, scaling=scaling, deepest=parts["deepest"], sums={"held_impulse": parts["held"]}, total=-2.0,
-            beam=SimpleNamespace(shape=shape), contact=SimpleNamespace(contact_s=places[:80]),
-        ),
-    )  # fmt: skip
-    books = history_of(
-        [0.0, 0.5, 0.7, 1.0], [0.0, 1.0], loss_impact=np.array([0.0, 1.0, 1.0 - lost, 1.0]),
-        kinetic_energy=np.full(4, 3.0), strain_energy=np.full(4, 1.0),
-    )  # fmt: skip
-    return warnings_of_run(stepping, books)
-
-
-def graded(growth, first=0.05):
-    """``places`` whose elements grow by a factor from 0 to beyond 40 Λ."""
-    return np.concatenate([[0.0], np.cumsum(first * growth ** np.arange(150))])
-
-
-@pytest.mark.parametrize(
-    ("sound", "amiss", "says"),
-    [
-        ({"step": 0.049}, {"step": 0.051}, "time steps of 0.051 end_time"),
-        ({}, {"unsettled": 1}, "in 1 of 1000 steps the contact state had not settled"),
-        ({"cycles": 49}, {"cycles": 51}, "in 51 of 1000 steps no contact state was consistent"),
-        ({"deepest": 0.0099}, {"deepest": 0.0101}, "enters the wall by up to 1.01% of V0 t"),
-        ({"lost": 3.9e-3}, {"lost": 4.1e-3}, "the contact gave 0.001 of the initial energy"),  # of 4 J
-        ({"held": -1.9}, {"held": -2.2}, "pulled by 1.1 times the total impulse"),  # of -2 N s
-        ({"places": graded(1.0205)}, {"places": graded(1.0215)}, "the mesh grows by 2% an element"),
-        ({"places": graded(1.0215), "given": False}, {"places": graded(1.0215)}, "an element"),
-        ({"slope": 0.099}, {"slope": 0.101}, "slopes up to 0.1: linear theory"),
-        ({"slope": 0.099, "slender": False}, {"slope": 0.101, "slender": False}, "the model's slopes reach 0.1"),
-        ({"slope": 0.12, "wall_slope": 0.03}, {"slope": -0.08, "wall_slope": 0.03}, "slopes up to 0.11"),
-        ({"in_wall": 8.1, "velocity_y": 1.1}, {"in_wall": 8.1, "velocity_y": 0.9}, "outside the zone"),  # freely, too
-        ({"in_wall": 8.1, "wall_y": -1.1}, {"in_wall": 8.1, "wall_y": 1.1}, "outside the zone given contact points"),
-        ({"in_wall": 8.0}, {"in_wall": 8.1}, "outside the zone given contact points"),  # to 7.9, and an element
-    ],
-)
-def test_a_threshold_is_where_it_is_said_to_be(sound, amiss, says) -> None:
-    assert stated(**sound) == []
-    (said,) = stated(**amiss)
-    assert says in said
-
-
-def test_a_soft_wall_may_be_entered_and_a_beam_of_its_own_length_may_end_anywhere() -> None:
-    assert stated(impact=IMPACT.replace(wall_stiffness=1.0), deepest=1.0) == []
-    needed = 0.5 * far_field(Scaling(IMPACT, 1.0))
-    assert stated(half_length=1.01 * needed) == []
-    (said,) = stated(half_length=0.99 * needed)
-    assert "the end lies at" in said and "before the end time" in said
-    assert stated(impact=IMPACT.replace(length=1.98 * needed), half_length=0.99 * needed) == []
-
-
-@pytest.mark.parametrize(
-    ("near", "far", "says"),
-    [(0.1, 0.33, []), (0.1, 0.35, ["2.9 elements at the end time"]), (0.109, 0.1, ["2.9 elements at 0.1 of"])],
-)
-def test_the_bending_length_of_the_front_needs_three_elements_at_both_times(near, far, says) -> None:
-    """It is 1 Λ at the end time, with the front at 2 Λ, and √0.1 of both at a tenth of it."""
-    said = stated(places=np.concatenate([np.arange(0.0, 1.0, near), np.arange(1.0, 40.0, far)]), given=False)
-    assert len(said) == len(says) and all(text in line for text, line in zip(says, said))
-
-
-def test_one_instant_says_nothing_of_a_front_and_a_stop_has_none() -> None:
-    coarse = np.linspace(0.0, 40.0, 41)
-    assert stated(places=coarse, instants=1) == stated(places=coarse, settles=False, instants=1) == []
-    stop = IMPACT.replace(wall_from=0.0, wall_to=0.0)
-    assert "bending length" in stated(places=coarse)[0] and stated(places=coarse, impact=stop) == []
