@@ -48,7 +48,6 @@ def followed(impact, end, method):
         (BEAM.replace(rotation=-0.3, first_touch=-0.2), 0.15, 0.04, {}),
         (SHEARED.replace(axial_force=1.5), 0.15, 0.02, {}),
         (SOFT.replace(wall_from=-0.4, wall_to=0.3), 0.1, 0.03, {}),
-        (SOFT.replace(curvature_rate=0.6, fourth_derivative=0.5), 0.1, 0.03, {}),
         (SOFT.replace(curvature=0.3, left_end="hinged", right_end="clamped"), 0.1, 0.03, {}),
         (SOFT.replace(shear_stiffness=150.0, rotary_inertia=5e-3), 0.1, 0.02, {}),
         (SOFT.replace(axial_force=-2.5, tension_direction="tangent", curvature=1.0), 0.1, 0.03, {}),
