@@ -48,12 +48,6 @@ def ready(system: System) -> tuple[Problem, Constraints]:
     return problem, constraints_of(problem.rows)
 
 
-def unconstrained(system: System, b: Array) -> Array:
-    x, keep = np.zeros(system.dofs), np.setdiff1d(np.arange(system.dofs), system.supports)
-    x[keep] = np.linalg.solve(dense(system.mass)[np.ix_(keep, keep)], b[keep])
-    return x
-
-
 def missed(system: System, conditions: Constraints, held: NDArray[np.bool_], b: Array, x: Array) -> float:
     """By how much x and p miss what one x alone fulfils: Mx = b + Gᵀp, and of each row a gap or a push."""
     rows, p, forces = system.contacts, conditions.p, dense(system.mass) @ x - b
@@ -78,7 +72,9 @@ def test_contact_problems_are_solved(seeds: range) -> None:
         if degenerate < 0.1:
             b, target = np.round(b), np.zeros(m)
         elif degenerate < 0.3:  # some rows just touch: no gap and no reaction
-            there = np.einsum("jk,jk->j", system.contacts.factors, unconstrained(system, b)[system.contacts.dofs])
+            alone, keep = np.zeros(n), np.setdiff1d(np.arange(n), system.supports)
+            alone[keep] = np.linalg.solve(dense(system.mass)[np.ix_(keep, keep)], b[keep])
+            there = np.einsum("jk,jk->j", system.contacts.factors, alone[system.contacts.dofs])
             target = np.where(random.random(m) < random.choice([0.5, 0.9]), there, target)
         candidate, held = random.random(m) < 0.9, random.random(m) < 0.1
         conditions.target[:], conditions.candidate[:], conditions.least[:] = target, candidate, -1.0 * held
