@@ -32,7 +32,6 @@ def test_a_history_is_read_back_equal_and_its_budget_adds_up(tmp_path):
     history = small()
     again = ImpactHistory.load(history.save(tmp_path / "run.nc"))
     assert again.dataset.identical(history.dataset)
-    assert (again.impact, again.settings, again.steps) == (history.impact, history.settings, 0)
     assert again.warnings == ["front under-resolved"]
     assert again.dataset["gap"].attrs["units"] == "m"
     assert [f.name for f in tmp_path.iterdir()] == ["run.nc"]  # no part left behind

@@ -54,13 +54,6 @@ def test_a_rim_that_moves_on_is_read_at_the_time_whether_or_not_one_interval_mor
     assert half_contact_length(history, 50) == pytest.approx(0.5, abs=1e-3)
 
 
-def test_a_front_of_points_that_move_may_be_a_small_part_of_the_length_scale() -> None:
-    time = np.linspace(0.0, 1.0, 2001)
-    places, both = 0.02 * np.sqrt(time)[:, None] * [-1.0, 1.0], {"symmetry": "full", "total_impulse": 2.0 * time}
-    moved = history_of(time, places[-1], impulse=np.outer(time, [1.0, 1.0]), contact_position=places, **both)
-    assert first_front(moved, 0.5) == pytest.approx((0.02 * np.sqrt(0.5), 0.0), rel=1e-3, abs=1e-5)
-
-
 def test_a_front_that_does_not_go_as_the_root_of_time_is_between_where_it_was_and_where_it_will_be() -> None:
     """It comes back from 0.6 as 0.6 − t/2; a zone of 0.3 ends at a quarter: straight in √t from there to nothing."""
     x, time = np.linspace(0.0, 1.0, 1001), np.linspace(0.0, 1.0, 2001)

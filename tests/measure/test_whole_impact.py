@@ -59,7 +59,6 @@ def test_restitution_of_a_damped_beam_is_one_number_for_all_schemes(integrator, 
     assert found.translation + found.vibration + found.dissipated == pytest.approx(1.0, abs=1e-6)
     assert found.translation == pytest.approx(found.restitution**2, rel=1e-6)
     assert max(found.energy_defect, found.energy_gain) < 1e-6
-    assert history.array("loss_material")[-1] > 0.05
 
 
 @pytest.mark.parametrize(
@@ -80,7 +79,6 @@ def test_the_restitution_is_of_the_velocity_with_which_the_centre_of_mass_arrive
     before, after = (np.trapezoid(history.array("velocity", int(k)), x) / np.ptp(x) for k in at)
     assert first.before == pytest.approx(before, abs=5e-3) and abs(before - 1.0) > 0.05
     assert found.restitution == pytest.approx(-after / before, abs=0.01)
-    assert found.translation + found.vibration + found.dissipated == pytest.approx(1.0, abs=1e-9)
 
 
 def test_what_a_hit_loses_is_what_loads_do_not_give_and_it_is_where_it_pushes() -> None:
