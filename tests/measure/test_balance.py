@@ -70,7 +70,7 @@ def test_part_of_a_long_beam_an_expanding_mesh_and_a_beam_under_tension_keep_the
     assert max(balance_of(run).momentum for run in runs) < 5e-4
     rising = Impact.dimensionless(0.5, epsilon_psi=-3.0)  # its ends bear the shear force of its bow
     assert balance_of(HermiteFE(domain=6.0).simulate(rising, end_time=0.1)).momentum < 5e-4
-    method = ExudynModel(mesh=UniformMesh(1.0 / 30))
+    method = ExudynModel(mesh=UniformMesh(1.0 / 20))
     few, many = (method.simulate(tense, end_time=0.3, save=save) for save in (10, 300))
     assert balance_of(many).momentum < 5e-4
     assert peak_moment(few).moment == pytest.approx(peak_moment(many).moment, rel=1e-12)  # that of all steps
@@ -101,7 +101,7 @@ def test_a_whole_beam_that_rocks_bears_its_load_over_its_length_and_keeps_its_sp
 
 def test_a_pull_counts_where_nothing_is_said_to_be_held() -> None:
     """The start is held until 0.001 t*; what the wall takes back of its impulse after it is a pull."""
-    history = ExudynModel(refine=0.5).simulate(Impact.dimensionless(0.5), end_time=0.1, save=60)
+    history = ExudynModel(refine=0.3).simulate(Impact.dimensionless(0.5), end_time=0.1, save=60)
     assert history.settings["hold"]["pull"] > 0.01 and balance_of(history).pull == 0.0
     impulse = history.dataset["impulse"].copy()
     impulse[-1, 0] -= 0.1 * float(impulse.diff("time").max())
@@ -227,8 +227,8 @@ SHEARED = [
         (HermiteFE(mesh=UniformMesh(1.0 / 50)).for_whole_beam(MIDDLE), MIDDLE, 0.3),
         (HermiteFE(mesh=UniformMesh(1.0 / 22)).for_whole_beam(SOFT), SOFT, 0.0577),
         (SWINGING, Impact.dimensionless(0.25), 0.1),
-        (ExudynModel(refine=0.5), FAR.replace(fourth_derivative=-3.0), 0.1),  # off the wall everywhere
-        (ExudynModel(refine=0.5), FAR.replace(fourth_derivative=1.0), 0.1),  # into it far away, where it is linear
+        (ExudynModel(refine=0.3), FAR.replace(fourth_derivative=-3.0), 0.1),  # off the wall everywhere
+        (ExudynModel(refine=0.3), FAR.replace(fourth_derivative=1.0), 0.1),  # into it far away, where it is linear
     ],
 )
 def test_a_sound_run_has_nothing_to_warn_of(method, impact, end) -> None:

@@ -192,23 +192,19 @@ def test_companions_that_differ_and_a_reaction_that_does_not_reach_the_load_wide
 def test_a_zone_that_should_lift_and_does_not_widens_the_error_bars():
     base, leading, runs = pressed(uniform=False, first=(-1.0, 0.0, 0.0))
     lifted = [(e, dataclasses.replace(run, lift=run.tau)) for e, run in runs]
-    free, stuck = (first_order(some, base, leading, pressure=-1.0) for some in (lifted, runs))
-    whole = contact_parameters(0.5).lambda0 / SIDE  # of the load
-    assert stuck.r1.bar == pytest.approx(free.r1.bar + whole, rel=0.02)
-    twice, once = (first_order(runs, base, leading, pressure=p).r1.parts["uniform_reaction"] for p in (-2.0, -1.0))
-    assert twice == pytest.approx(2.0 * once, rel=0.02)
-    pushes = [(e, dataclasses.replace(run, pressure=run.pressure + 0.5 * e)) for e, run in runs]
-    on_springs = first_order(pushes, base, leading, pressure=-1.0)  # what pushes on adds to what should have lifted
-    assert on_springs.r1.bar > stuck.r1.bar + 0.5 * whole
+    pushed = [(e, dataclasses.replace(run, pressure=run.pressure + 0.5 * e)) for e, run in lifted]  # as by springs
     rattling = dataclasses.replace(base, pressure=base.pressure + 0.05)  # by half a load, which is not there with it
-    off = first_order(lifted, rattling, leading, pressure=-1.0)
-    missing = estimators.MISSING_FIRST * estimators.HITS_FIRST * 0.5 * whole
-    assert off.r1.parts["uniform_reaction"] == pytest.approx(missing, rel=0.02)
-    assert off.uniform_reaction == free.uniform_reaction
+    whole = contact_parameters(0.5).lambda0 / SIDE  # of the load
+    hits = estimators.MISSING_FIRST * estimators.HITS_FIRST * 0.5 * whole
+    stuck = [(runs, base, -1.0, whole), (runs, base, -2.0, 2.0 * whole)]
+    for some, at_rest, pressure, lacks in (*stuck, (lifted, base, -1.0, 0.0), (pushed, base, -1.0, hits),
+                                           (lifted, rattling, -1.0, hits)):  # fmt: skip
+        found = first_order(some, at_rest, leading, pressure=pressure)
+        assert found.r1.parts["uniform_reaction"] == pytest.approx(lacks, rel=0.02, abs=0.01 * whole)
     thrown = dataclasses.replace(leading, lift=0.03)
     for pressure, more in ((-1.0, 0.2), (1.0, 0.0)):
         low, high = (first_order(lifted, base, one, pressure=pressure).r1.parts["lift"] for one in (leading, thrown))
-        assert high - low == pytest.approx((2.0 * 0.3 * 0.03 + more) * abs(free.r1.known), rel=1e-3)
+        assert high - low == pytest.approx((2.0 * 0.3 * 0.03 + more) * abs(found.r1.known), rel=1e-3)
 
 
 def test_a_pressure_that_comes_and_goes_with_the_saved_instants_is_told_by_its_mean():

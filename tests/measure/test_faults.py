@@ -32,7 +32,6 @@ GAIN = "gain + (missing / np.where(whole > 0.0, whole, 1.0))[:, None] * weight"
 FAULTS = {
     "hermite_fe": [
         ("impulses of the steps", "momentum", "stepping.py", STEP, "state.impulse[j] += 0.99 * conditions.p[j]"),
-        ("total impulse", "momentum", "simulate.py", "copies * run.impulse @ towards", "0.99 * {}"),
         ("impulses of the points", "points", "simulate.py", POINTS, "0.99 * {}"),
         ("half a node's mass", "initial_energy", "masses.py", "self.element(beam)",
          "{} * " + LOST.format("beam.lengths")),
@@ -53,7 +52,6 @@ FAULTS = {
     ],
     "self_similar_fe": [
         ("total impulse", "momentum", "run.py", "2.0 * float(self.impulse.sum())", "1.98 * float(self.impulse.sum())"),
-        ("impulses of the steps", "momentum", "run.py", "+ mean * roots", "+ 0.99 * mean * roots"),
         ("impulses of the points", "points", "run.py", "self.impulse * push", "0.99 * self.impulse * push"),
     ],
 }  # fmt: skip

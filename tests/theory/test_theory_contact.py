@@ -50,7 +50,8 @@ def patched_waves(ratio: float, loads: tuple[float, ...], last: int = 1) -> tupl
     with mp.workdps(DIGITS):
         (alpha, psi, chi, n), kappa, x, one = map(mp.mpf, loads), mp.mpf(ratio), front(ratio), mp.mpf(1)
         detached = ratio < 1.0 and alpha + n * kappa + psi < 0
-        i2, i4, i6 = (np.array([wave(order)(x, m) for m in range(6)]) for order in (2, 4, 6))
+        waves = [np.array([wave(2 * k + 2)(x, m) for m in range(6)]) for k in range(last + 1)]
+        i2, i4 = waves[:2]
         free = [even(x, 1, -kappa / 2), even(x, alpha / 2, chi / 2, psi / 24), even(x, n * chi / 6, n * psi / 4)]
         shapes = [
             [],
@@ -69,13 +70,13 @@ def patched_waves(ratio: float, loads: tuple[float, ...], last: int = 1) -> tupl
             apart = [one - other for one, other in zip(fields, others)]
             return sum(lambdas[1] ** j / mp.factorial(j) * f[j : j + 4] for j, f in enumerate(reversed(apart)))
 
-        for k, waves in enumerate((i2, i4, i6)[: last + 1]):
+        for k, fresh in enumerate(waves):
             second = tension**2 / 2 * b[0] * (i2 - 4 * i4) - tension * b[1] * i4
             outside.append(real([0 * i2, -tension * b[0] * i2, second][k]))
             resting = [free[0], even(x, -n * kappa / 2), even(x, n * middle[1] / 3, -n * middle[0] / 2)]
             inside.append(resting[k] if detached else free[k])
             known = conditions(at_front(outside, free), at_front(outside, inside), at_front(inside, free))
-            columns = [conditions(part, part, nothing) for part in (real(waves), real(mp.j * waves))]
+            columns = [conditions(part, part, nothing) for part in (real(fresh), real(mp.j * fresh))]
             columns += [conditions(nothing, -shape, shape) for shape in shapes[k] if detached]
             jump = (outside[0] - free[0])[1:5]  # by which the front's motion changes each of them
             columns += [conditions(jump, jump, nothing)] if k and ratio < 1.0 else []
@@ -84,7 +85,7 @@ def patched_waves(ratio: float, loads: tuple[float, ...], last: int = 1) -> tupl
             solution = mp.lu_solve(matrix, right)
             left.append(mp.norm(matrix * solution - right, mp.inf))
             b[k], found = mp.mpc(*solution[:2]), list(solution)
-            outside[k] = outside[k] + real(b[k] * waves)
+            outside[k] = outside[k] + real(b[k] * fresh)
             if k and detached:
                 middle = found[2:4]
                 inside[k] = inside[k] + sum(part * shape for part, shape in zip(middle, shapes[k]))
