@@ -9,7 +9,7 @@ from theory.ladder import BouncingBall, DroppedBar, FlyingBar, ReleasedBar, Stri
 @pytest.mark.parametrize("restitution", [0.0, 0.3, 0.9, 1.0])
 def test_the_ball_is_what_event_by_event_integration_gives(restitution: float) -> None:
     ball = BouncingBall(height=2.0, velocity=0.7, gravity=9.81, restitution=restitution)
-    start, height, speed, impacts = 0.0, 2.0, 0.7, 0
+    start, height, speed, impacts, given = 0.0, 2.0, 0.7, 0, 0.0
     for _ in range(40):
         flight = (speed + np.sqrt(speed**2 + 2.0 * 9.81 * height)) / 9.81
         inside = start + flight * np.array([0.01, 0.5, 0.99])
@@ -20,8 +20,10 @@ def test_the_ball_is_what_event_by_event_integration_gives(restitution: float) -
         np.testing.assert_allclose(ball.position(inside), flown, rtol=1e-12, atol=slack)
         np.testing.assert_allclose(ball.velocity_at(inside), speed - 9.81 * age, atol=1e-12)
         np.testing.assert_array_equal(ball.impacts(inside), impacts)
+        np.testing.assert_allclose(ball.impulse(inside), given, atol=1e-12)
         landing = speed - 9.81 * flight
         start, height, speed, impacts = start + flight, 0.0, -restitution * landing, impacts + 1
+        given += speed - landing
         assert ball.impact_time(impacts) == pytest.approx(start, rel=1e-13)
         if speed < 1e-4:
             break
@@ -37,10 +39,6 @@ def test_infinitely_many_impacts_end_in_finite_time() -> None:
         np.testing.assert_array_equal(field(after), 0.0)
     # at rest the floor has stopped it and carries its weight
     np.testing.assert_allclose(ball.impulse(after), after, rtol=1e-15)
-    thrown = BouncingBall(restitution=0.5, velocity=1.0)
-    before, soon = thrown.first_impact * np.array([0.9, 1.01])
-    jump = thrown.velocity_at(soon) + 1.0 * (soon - thrown.first_impact) + thrown.landing_speed
-    np.testing.assert_allclose(thrown.impulse([before, soon]), [0.0, jump], atol=1e-14)
     assert BouncingBall(restitution=0.0).rest == BouncingBall(restitution=0.0).first_impact
     assert BouncingBall(restitution=1.0).rest == np.inf
 
