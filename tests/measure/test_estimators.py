@@ -20,31 +20,21 @@ from theory import contact_parameters
 @cache
 def synthetic(kappa, first=(0.0, 0.0, 0.0), epsilon=0.0):
     """A half-beam history with both concentrated reactions and the uniform one on a fixed mesh."""
-    times, nodes, exact = 200, 400, contact_parameters(kappa, *first)
-    loads = dict(zip(("epsilon_alpha", "epsilon_psi", "epsilon_chi"), (epsilon * value for value in first)))
-    tau = np.linspace(np.sqrt(1e-4), np.sqrt(0.1), times) ** 2
-    x = np.linspace(0.0, 1.2 * exact.lambda0 * np.sqrt(0.1) + 0.2, nodes)
-    fine = np.linspace(np.sqrt(1e-6), np.sqrt(0.1), 20_001) ** 2
-    step = np.diff(fine, prepend=0.0)
+    exact, loads = contact_parameters(kappa, *first), ("epsilon_alpha", "epsilon_psi", "epsilon_chi")
+    fine, saved = np.linspace(1e-3, np.sqrt(0.1), 8001) ** 2, np.linspace(228, 8000, 200).astype(int)
+    x = np.linspace(0.0, 1.2 * exact.lambda0 * np.sqrt(0.1) + 0.2, 400)
     front = np.sqrt(fine) * (exact.lambda0 + epsilon * exact.lambda1 * fine)
-    pushed = SIDE * (exact.r0 + epsilon * exact.r1 * fine) / np.sqrt(fine) * step
-    pushed[0] = 2.0 * SIDE * exact.r0 * np.sqrt(fine[0])
-    saved = np.searchsorted(np.searchsorted(fine, tau * (1 - 1e-9)), np.arange(fine.size))  # the interval of each step
-    # the force is shared by the two nodes around the front, as a finite element solution does
-    cell = np.clip(np.searchsorted(x, front) - 1, 0, nodes - 2)
-    right = (front - x[cell]) / (x[cell + 1] - x[cell])
-    gained = np.zeros((times + 1, nodes))
-    np.add.at(gained, (saved, cell), pushed * (1 - right))
-    np.add.at(gained, (saved, cell + 1), pushed * right)
-    if pressure := epsilon * max(first[0] + first[1], 0.0):
-        share = np.gradient(x)
-        share[0] /= 2
-        pressed = (x <= front[:, None]) * share
-        np.add.at(gained, (saved, cell), pressure * step * (front - pressed.sum(axis=1)))
-        np.add.at(gained, saved, pressure * step[:, None] * pressed)
-    impulse = gained[:times].cumsum(axis=0)
-    impact = Impact.dimensionless(kappa, **loads)
-    return history_of(tau, x, impact=impact, impulse=impulse, total_impulse=2.0 * impulse.sum(axis=1))
+    force = SIDE * (exact.r0 + epsilon * exact.r1 * fine) / np.sqrt(fine)
+    force[0] *= 2.0  # the mean since the first touch
+    # shared by the two nodes around the front, as a finite element solution does
+    shared = np.maximum(1.0 - np.abs(x - front[:, None]) / x[1], 0.0)
+    own = np.where(x > 0.0, x[1], 0.5 * x[1])
+    pressed = (x <= front[:, None]) * own
+    pressed += (front - pressed.sum(axis=1))[:, None] * shared
+    rates = force[:, None] * shared + epsilon * max(first[0] + first[1], 0.0) * pressed
+    impulse = (rates * np.diff(fine, prepend=0.0)[:, None]).cumsum(axis=0)[saved]
+    impact = Impact.dimensionless(kappa, **{name: epsilon * value for name, value in zip(loads, first)})
+    return history_of(fine[saved], x, impact=impact, impulse=impulse, total_impulse=2.0 * impulse.sum(axis=1))
 
 
 def pressed(uniform=True, first=(1.0, 0.5, 0.0), epsilons=(0.1,)):
