@@ -103,15 +103,11 @@ def test_a_stopped_point_is_the_inverse_of_its_transform_by_another_method(g: fl
     """De Hoog's quotient-difference in many digits, of waves found as roots of Timoshenko's dispersion relation."""
 
     def impulse(s: mp.mpc) -> mp.mpc:
-        """Waves e^{−ax}: D²a⁴ − (1 + g)s²D a² + g s⁴ + s²D = 0; φ = (s²/(Da) − a) w over −1; φ(0) = 0, w(0) = 1/s²."""
+        """Waves e^{−ax}, e^{−bx}: D²a⁴ − (1 + g)s²Da² + gs⁴ + s²D = 0; φ = (s²/(Da) − a)w; φ(0) = 0, w(0) = 1/s²."""
         stiff = 1 + mp.mpf(damping) * s
-        half, product = (1 + g) * s**2 / (2 * stiff), (g * s**4 + s**2 * stiff) / stiff**2
-        squares = [half + sign * mp.sqrt(half**2 - product) for sign in (1, -1)]
-        a, b = (mp.sqrt(square) for square in squares)
-        turn = [s**2 / (stiff * k) - k for k in (a, b)]
-        first, second = turn[1] / (turn[1] - turn[0]), -turn[0] / (turn[1] - turn[0])  # shares of w(0)
-        angle_free = first * a + second * b  # −w_x(0) = −Q/(SD)
-        return 2 * stiff * angle_free / s**2 / s
+        product = s * mp.sqrt(g * s**2 + stiff) / stiff  # ab
+        total = mp.sqrt((1 + g) * s**2 / stiff + 2 * product)  # a + b
+        return 2 * stiff * total / (s**2 + stiff * product) / s
 
     point = StoppedPoint(g, damping)
     for time in (0.1, 1.0, 6.0):
