@@ -155,11 +155,9 @@ def test_a_beam_that_has_left_is_looked_at_late_in_its_contact_whether_it_touche
 def test_the_late_contact_begins_with_half_of_the_time_to_the_last_push_or_four_fifths_of_the_impulse(pushes, first):
     """The node is off the wall at the end of one interval after another: it counts from ``first`` on, if it pushes."""
     time = np.arange(7.0)
-    impulse, gap = np.zeros((7, 2)), np.zeros((7, 2))
-    impulse[1:, 0] = np.cumsum(pushes)
+    impulse = np.outer(np.cumsum([0.0, *pushes]), [1.0, 0.0])
     for k in range(6):
-        gap[:] = 0.0
-        gap[k + 1, 0] = 0.5 * (k + 1)
+        gap = np.outer(time == k + 1, [0.5 * (k + 1), 0.0])
         found = balance_of(history_of(time, [0.0, 1.0], impact=WHOLE, gap=gap, impulse=impulse))
         assert (found.gap_of_push > 0.0) == (k >= first and pushes[k] > 1e-6 * max(pushes)), k
 

@@ -59,7 +59,7 @@ X = np.linspace(0.013, 0.987, 41)
     ],
 )
 def test_bars_carry_waves_and_keep_signorini_their_momentum_and_energy(bar, speed, stiffness, times) -> None:
-    # u_t and u_x are the derivatives of u, and are carried along the characteristics, away from the kinks
+    # u_t and u_x are the derivatives of u away from the kinks
     x, t = np.meshgrid(X, times)
     fine = np.ones(x.shape, dtype=bool)
     for field in (bar.velocity_at, bar.strain):
@@ -69,13 +69,11 @@ def test_bars_carry_waves_and_keep_signorini_their_momentum_and_energy(bar, spee
     rate, slope = differences(bar.displacement, x, t, 1e-6)
     np.testing.assert_allclose(rate[fine], bar.velocity_at(x, t)[fine], atol=1e-7)
     np.testing.assert_allclose(slope[fine], bar.strain(x, t)[fine], atol=1e-7)
-    # invariants u_t ± c u_x do not change along x ∓ ct while inside the bar
-    step = 0.01
-    inside = np.abs(x - 0.5) < 0.49 - speed * step
-    for sign in (1.0, -1.0):
-        places = ((x, t), (x + sign * speed * step / 4, t + step / 4))
-        waves = [bar.velocity_at(*place) - sign * speed * bar.strain(*place) for place in places]
-        np.testing.assert_allclose(waves[1][inside], waves[0][inside], atol=1e-13)
+    # u_tt = c² u_xx, kinks or not: opposite corners of what waves enclose have one sum
+    inside, h = np.abs(X - 0.5) < 0.49 - 0.01 * speed, 0.01
+    x, t = x[:, inside], t[:, inside]
+    along = bar.displacement(x + speed * h, t) + bar.displacement(x - speed * h, t)
+    np.testing.assert_allclose(along, bar.displacement(x, t + h) + bar.displacement(x, t - h), atol=1e-13)
     fine = np.linspace(0.0, 3.0, 1201) + 1e-5
     gap, reaction = bar.displacement(0.0, fine), bar.reaction(fine)
     assert np.all(gap >= -1e-14) and np.all(reaction >= 0.0)
