@@ -1,7 +1,6 @@
 """Walls and stops that give way: limits, a modal solution, and how the rigid wall's law comes back."""
 
 import math
-from functools import cache
 from types import SimpleNamespace
 
 import numpy as np
@@ -12,14 +11,7 @@ from benchmarks.wall import settled
 from bent_beam import Impact
 from theory import contact_parameters, elastic_wall, predict, wall_prediction
 from theory.elastic_stop import SwungBeam
-from theory.elastic_wall import _loads, flat_limit, largest, sharp_limit, wall_history
-
-peak_force = cache(elastic_wall.peak_force)
-
-
-@pytest.fixture(autouse=True)
-def each_wall_is_solved_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(wall_prediction, "peak_force", peak_force)
+from theory.elastic_wall import _loads, flat_limit, largest, peak_force, sharp_limit, wall_history
 
 
 def largest_force_by_modes(kappa_over_nu, damping_ratio, end, half, dx, damping=0.0):

@@ -40,7 +40,7 @@ def test_leading_order_and_one_point_at_every_order_touch_to_round_off_and_a_det
     assert np.all(detached.complementarity_residual([0.0, 0.3, 0.6], 0.3) < -1e-4)
 
 
-@pytest.mark.parametrize("ratio", [1 / 1600, 0.5, pytest.param(0.999, marks=pytest.mark.verify), 3.0])
+@pytest.mark.parametrize("ratio", [1 / 1600, pytest.param(0.999, marks=pytest.mark.verify), 3.0])
 def test_convolution_equals_the_closed_form_everywhere(ratio: float) -> None:
     parameters = contact_parameters(ratio)
     wave, tau = SelfSimilarWave(parameters), 0.7
@@ -77,7 +77,7 @@ def test_momentum_equals_impulse_at_first_order() -> None:
     tau, e = 0.3, 0.1
     fields = ImpactFields(contact_parameters(0.5, 1.0, 1.0, axial=2.0), epsilon=e)  # whose part has no momentum
     p = fields.parameters
-    xi = np.linspace(0.0, 12.0, 201)
+    xi = np.linspace(0.0, 12.0, 121)
     found = 2.0 * simpson(fields.fast_layer(xi, tau).deflection, x=xi)
     point = 8.0 / 3.0 * np.sqrt(2.0 / np.pi) * tau**1.5 * (p.r0 + e * p.r1 * tau / 5.0)
     zone = fields.uniform_reaction * 8.0 * tau**2.5 * (p.lambda0 / 15.0 + e * p.lambda1 * tau / 35.0)

@@ -100,7 +100,7 @@ def test_what_ends_it_is_one_thing_and_rows_never_contradict_it(impact, section,
 
 def off(impact: Impact, name: str, exact: Callable[..., np.ndarray], begin: float, end: float) -> float:
     """Largest error of what is predicted between two times, a share."""
-    times = np.linspace(begin, end, 400)
+    times = np.linspace(begin, end, 250)
     found = [getattr(row, name) for row in predict(impact, times).times]
     return float(np.abs(found / exact(times) - 1.0).max())
 
