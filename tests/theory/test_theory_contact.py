@@ -1,5 +1,6 @@
 """λ₀, r₀, λ₁, r₁, λ₂, r₂ against 110 digits of a derivation without φ functions, their regimes and ranges."""
 
+import itertools
 from functools import cache
 from typing import Any
 
@@ -91,31 +92,27 @@ def patched_waves(ratio: float, loads: tuple[float, ...], last: int = 1) -> tupl
         return lambdas[: last + 1], forces
 
 
-def assert_exact(ratio: float, loads: tuple[float, ...]) -> None:
+@pytest.mark.parametrize("count", [1, pytest.param(4, marks=pytest.mark.verify)])
+def test_parameters_are_exact_from_flat_to_nearly_one_point(count: int) -> None:
     """λ₁ and r₁ to 1e-12 of the largest contribution of a single load: first order is linear in (α, ψ, χ, N)."""
-    alpha, psi, chi, axial = loads
-    found, x = contact_parameters(ratio, alpha, psi, chi, axial=axial), front(ratio)
-    (_, lambda1), (r0, r1) = patched_waves(ratio, loads)
-    assert abs(mp.mpf(found.lambda0) - x) <= 1e-12 * x and found.r0 == pytest.approx(float(r0), rel=1e-12)
-    for name, exact in (("lambda1", lambda1), ("r1", r1)):
-        scale = abs(float(exact))
+    rng = np.random.default_rng(11)
+    curved, near_one = 10.0 ** rng.uniform(-8, 0, 5 * count), 1.0 - 10.0 ** rng.uniform(-9, -1, 3 * count)
+    ratios = (1e-8, *curved, *near_one, 1.0 - 2.0**-40)
+    cases = [(ratio, (*rng.normal(size=3) * 10.0 ** rng.uniform(-2, 2), 0.0)) for ratio in ratios]
+    signs = ((1, 0, 0, 0), (1, 1, -2, 0), (0, 2, 1, 1), (-1, -1, 0, 0), (-2, 1, 1, -1), (0, -1, 3, 2))
+    cases += itertools.product((40.0, 0.9, 0.5, 0.1, 0.01), signs)  # the first is one point
+    for ratio, loads in cases:
+        found, x = contact_parameters(ratio, *loads[:3], axial=loads[3]), front(ratio)
+        (_, lambda1), (r0, r1) = patched_waves(ratio, loads)
+        assert abs(mp.mpf(found.lambda0) - x) <= 1e-12 * x and found.r0 == pytest.approx(float(r0), rel=1e-12)
+        singles = []
         for k in range(4):
             *part, pull = np.where(np.arange(4) == k, loads, 0.0)
             sign = 1.0 if contact_parameters(ratio, *part, axial=pull).regime == found.regime else -1.0
-            single = contact_parameters(ratio, *(sign * load for load in part), axial=sign * pull)
-            scale = max(scale, abs(getattr(single, name)))
-        assert getattr(found, name) == pytest.approx(float(exact), rel=0.0, abs=1e-12 * scale), (ratio, loads, name)
-
-
-@pytest.mark.parametrize("count", [1, pytest.param(4, marks=pytest.mark.verify)])
-def test_parameters_are_exact_from_flat_to_nearly_one_point(count: int) -> None:
-    rng = np.random.default_rng(11)
-    curved, near_one = 10.0 ** rng.uniform(-8, 0, 5 * count), 1.0 - 10.0 ** rng.uniform(-9, -1, 3 * count)
-    for ratio in (1e-8, *curved, *near_one, 1.0 - 2.0**-40):
-        assert_exact(ratio, (*rng.normal(size=3) * 10.0 ** rng.uniform(-2, 2), 0.0))
-    for ratio in (40.0, 0.9, 0.5, 0.1, 0.01):  # the first is one point
-        for loads in ((1, 0, 0, 0), (1, 1, -2, 0), (0, 2, 1, 1), (-1, -1, 0, 0), (-2, 1, 1, -1), (0, -1, 3, 2)):
-            assert_exact(ratio, loads)
+            singles.append(contact_parameters(ratio, *(sign * load for load in part), axial=sign * pull))
+        for name, exact in (("lambda1", float(lambda1)), ("r1", float(r1))):
+            scale = max(abs(exact), *(abs(getattr(single, name)) for single in singles))
+            assert getattr(found, name) == pytest.approx(exact, rel=0.0, abs=1e-12 * scale), (ratio, loads, name)
 
 
 @pytest.mark.parametrize("ratio", [1e-10, 1e-8, 3e-5, 0.01, 0.15, 0.38, 0.39, 0.7, 0.9999, 1 - 1e-6, 1 - 1e-9, 40.0])
