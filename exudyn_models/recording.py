@@ -67,6 +67,7 @@ class Recorder:
         # what the bow has been bent by before the first touch
         bent = scaling.impact.unbent_curvature - scaling.impact.curvature
         self.unbent = bent * scaling.length / scaling.slope
+        self.momentum = beam.momentum
         self.record: dict[str, list[Any]] = defaultdict(list)
         self.sums: dict[str, Any] = defaultdict(float)
         self.total = self.deepest = self.start_momentum = self.start_stored = 0.0
@@ -95,7 +96,7 @@ class Recorder:
         if not self._rows:
             # all contacts are open when Exudyn computes the first accelerations
             force, along = np.zeros_like(force), None if along is None else np.zeros_like(along)
-            self.start_momentum = float(v @ self.beam.momentum)
+            self.start_momentum = float(v @ self.momentum)
             self.start_stored = self.contact.stored_energy(q)
         else:
             self.pushes += bool(force.any() or self._rows[-1][4].any())
@@ -128,7 +129,7 @@ class Recorder:
         beam, saved = self.beam, self._pending
         gains = self._of_energy(time, q, v, a) | self._of_contact(time, q, v, force, along)
         after = {name: onwards(self.sums[name], gain) for name, gain in gains.items()}
-        total = self.start_momentum + after["load_impulse"] - v @ beam.momentum
+        total = self.start_momentum + after["load_impulse"] - v @ self.momentum
         gain, self._averaged = self.averages.impulses(force, self._averaged)  # as the scheme averages
         of_law = gain * np.diff(time)[:, None]
         after["law_impulse"] = onwards(self.sums["law_impulse"], of_law.sum(axis=1))
