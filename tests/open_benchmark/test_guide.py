@@ -25,7 +25,6 @@ def test_the_sixty_lines_converge(tmp_path):
     mine = Adapter("mine", file, resolutions=("coarse", "medium"))
     rows = campaign([mine], ["leading-0.5"], tmp_path / "out", limits=Limits(repeats=1))
     coarse, medium = (row.score for row in rows)
-    assert medium.outcome == "completed"
     for name in ("lambda0", "r0"):
         assert abs(medium.error(name) or 1.0) < min(abs(coarse.error(name) or 1.0), 5e-3)
     assert [finding.name for finding in medium.diagnosis] == ["clean"]

@@ -65,25 +65,20 @@ def test_the_largest_half_length_is_where_the_free_motion_closes_the_gap():
     x = far * np.array([0.5, 0.999, 1.001])
     gap = 0.25 * x**2 - load * x**4 / 24 - (1 + load * x**2 / 2) * 0.1 - load * 0.1**2 / 2
     assert (gap > 0.0).tolist() == [True, True, False]
-    assert "largest_half_length" not in document(problem("leading-0.5"))["beam"]
 
 
 def test_a_shipped_file_is_what_its_id_says_and_tells_no_answer():
-    assert {"leading-0.5", "ball", "bounce-2-1e-3"} <= set(shipped_ids())
-    for name in shipped_ids():
+    for name, stored in json.loads(PROBLEMS.read_text())["problems"].items():
         text = problem_text(problem(name))
-        tables = tomllib.loads(text)
-        assert tables == document(problem(name)) == json.loads(PROBLEMS.read_text())["problems"][name]
-        assert tables["schema"] == SCHEMA and tables["id"] == name
+        assert tomllib.loads(text) == document(problem(name)) == stored and stored["id"] == name
         assert not any(word in text for word in ("lambda", "r0", "theory", "step", "mesh"))
 
 
 def test_loads_in_the_file_are_the_scaled_groups_and_a_base_is_one_however_its_number_is_written():
     asked = problem("first-0.5--1--1-0.5")
-    table = tomllib.loads(problem_text(asked))["impact"]
     assert asked.loads == (-1.0, -1.0, 0.5, 0.0) and asked.base_id == "leading-0.5"
-    given = [table[name] / asked.epsilon for name in ("acceleration", "fourth_derivative", "curvature_rate")]
-    assert given == pytest.approx([-1.0, -1.0, 0.5])
+    given = [document(asked)["impact"][name] for name in ("acceleration", "fourth_derivative", "curvature_rate")]
+    assert given == pytest.approx([-asked.epsilon, -asked.epsilon, 0.5 * asked.epsilon])
     assert problem(str(problem("first-1e15-1-0-0").base_id)).kappa_over_nu == 1e15
 
 

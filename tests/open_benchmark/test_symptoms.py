@@ -8,9 +8,7 @@ import numpy as np
 import pytest
 
 from bent_beam_programs.open_benchmark.campaign import Row
-from bent_beam_programs.open_benchmark.result import result_from_fields
-from bent_beam_programs.open_benchmark.score import score
-from tests.open_benchmark.exact import TAU, exact_fields
+from tests.open_benchmark.exact import TAU, exact_fields, scored
 from tests.open_benchmark.faults import FAULTS, drawn
 from tests.open_benchmark.foreign import solve
 from theory import contact_parameters
@@ -22,7 +20,7 @@ QUICK += ("other_problem",)
 
 def looked_at(name, *seed):
     """Of a faulty result: whether it passes, the wrong causes that are named, the first symptom."""
-    found = score(result_from_fields(drawn(name, *seed)))
+    found = scored(**drawn(name, *seed))
     named = {one.name for one in found.diagnosis}
     wrong = max((abs(found.error(number) or 0.0) for number in found.measured), default=0.0)
     first = found.symptoms[0].name if found.symptoms else ""
@@ -37,7 +35,7 @@ def test_a_fault_shows_in_its_own_symptom_and_no_other_cause_is_named(name):
 
 def test_what_a_support_may_have_taken_and_dashpots_beside_soft_springs_pull_has_no_cause_of_its_own():
     for drawing, first in ((("clamped_end", 2147482015, 12), "momentum"), (("damped_springs", 1940264899, 14), "pull")):
-        found = score(result_from_fields(drawn(*drawing)))
+        found = scored(**drawn(*drawing))
         assert found.symptoms[0].name == first and not found.diagnosis
 
 
@@ -52,7 +50,7 @@ def test_of_40_fresh_faults_none_is_clean_or_has_a_wrong_cause_and_30_show_the_r
 
 @pytest.mark.parametrize("kappa", [0.1, 0.5])
 def test_a_good_result_is_clean_and_has_no_symptom(kappa):
-    found = score(result_from_fields(solve(kappa)))
+    found = scored(**solve(kappa))
     assert [one.name for one in found.diagnosis] == ["clean"] and not found.symptoms and not found.not_told
 
 
@@ -66,7 +64,7 @@ def test_a_table_of_answers_is_not_clean_and_what_it_lacks_is_named_and_not_take
     of_wall = {"node_x": [0.0, front], "node_impulse": np.c_[J / 2.0 - fields["Jm"] / front, fields["Jm"] / front]}
     gaps = {"x": x, "snap_tau": when[:, 0], "snap_gap": np.maximum(0.25 * x**2 - when, 0.0)}
     fields |= {"sums": {"J": J}, "points": of_wall, "gaps": of_wall | gaps}[given]
-    found = score(result_from_fields(fields))
+    found = scored(**fields)
     assert found.completed and max(abs(found.error(number)) for number in ("lambda0", "r0")) < 0.005
     if given == "gaps":
         assert "clean" not in {finding.name for finding in found.diagnosis}
@@ -79,4 +77,4 @@ def test_a_table_of_answers_is_not_clean_and_what_it_lacks_is_named_and_not_take
 def test_a_run_that_has_blown_up_has_diverged():
     fields = solve(0.5)
     fields["node_impulse"] = fields["node_impulse"] * 1e120
-    assert score(result_from_fields(fields)).outcome.startswith("diverged(node_impulse")
+    assert scored(**fields).outcome.startswith("diverged(node_impulse")
