@@ -88,14 +88,11 @@ def test_links_between_pages_lead_somewhere(page: Path) -> None:
             assert (page.parent / target.partition("#")[0]).exists(), f"{name_of(page)}: {target}"
 
 
-def without_digits(text: str) -> list[str]:
-    """Words of a text, numbers left out: round-off, steps and the width of columns may change."""
-    return re.sub(r"[-+]?\d[\d.]*(?:e[-+]?\d+)?|─+", "#", text).split()
-
-
 def hold_alike(today: str, stated: str) -> None:
-    """The same words; numbers with bars within half of them, bars within a fifth and a rounding."""
-    assert without_digits(today) == without_digits(stated)
+    """The same words; numbers with bars within half of them, bars within a fifth and a rounding. Other numbers may
+    change, with round-off and steps, and so may the width of columns."""
+    words, words_then = (re.sub(r"[-+]?\d[\d.]*(?:e[-+]?\d+)?|─+", "#", text).split() for text in (today, stated))
+    assert words == words_then
     for now, then in zip(*(re.findall(r"([-\d.]+) ± ([\d.]+)", text) for text in (today, stated)), strict=True):
         (value, bar), (known, wide) = map(float, now), map(float, then)
         assert abs(value - known) <= 0.5 * wide and max(bar, wide) <= 1.25 * min(bar, wide), (now, then)
@@ -116,8 +113,6 @@ def test_tutorial_runs() -> None:
     stored = [printed(cell) for cell in notebook.cells]
     assert sum(map(bool, stored)) >= 5
     nbclient.execute(notebook, cwd=str(ROOT / "docs"), timeout=240, kernel_name="python3")
-    for cell in notebook.cells:
-        assert not any(output.output_type == "error" for output in cell.get("outputs", []))
     for cell, known in zip(notebook.cells, stored):
         hold_alike(printed(cell), known)
 

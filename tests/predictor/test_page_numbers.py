@@ -53,8 +53,7 @@ def test_a_flat_beam_s_rebound_and_a_push_on_one_sheared_point_are_as_unsure_as_
 
 
 def test_maxima_that_agree_by_chance_have_a_bar_for_what_is_about_them() -> None:
-    """As in ``bounce``: two companions with the same largest moment, whose curves fall off more steeply; of a third the
-    largest is at another time."""
+    """Two companions have the same largest moment and fall off more steeply; a third has it at another time."""
 
     def course(slope: float, steps: int, length: int) -> dict[str, Any]:
         return {"steps": steps, "course": [2.0 - slope * abs(k / steps - 0.3) for k in range(length)]}
@@ -69,8 +68,7 @@ def test_maxima_that_agree_by_chance_have_a_bar_for_what_is_about_them() -> None
 
 
 def test_the_last_part_of_a_contact_may_be_none_on_the_page_too() -> None:
-    """As in ``bounce`` (comparison/test_numbers_of_runs.py): it begins at 0.5 T*, 0.1 T* after the part before it, and
-    gives half of 0.18 or of 0.22 μℓV₀; the restitution has a bar of two changes of 0.02."""
+    """It begins at 0.5 T*, 0.1 T* after the part before it, and gives half of 0.18 or of 0.22 μℓV₀."""
     both = ({"earlier": 3.0 - push} for push in (0.18, 0.22))
     wide, narrow = numbers_of([(given, given | {"restitution": 0.52}) for given in both])
     assert wide["restitution"]["bar"] == pytest.approx(2.0 * FACTOR * 0.02)
@@ -78,7 +76,7 @@ def test_the_last_part_of_a_contact_may_be_none_on_the_page_too() -> None:
 
 
 def test_laws_that_agree_by_chance_are_compared_on_half_of_the_elements_on_the_page_too() -> None:
-    """As in ``bounce``: the larger of two changes counts, of the restitution and not of the moment."""
+    """The larger of two changes counts, of the restitution and not of the moment."""
     rigid = {"problem": {"wall": None, "kappa": 1, "before": 0, "shear": 0}}
     changes = [[0.0, -0.02, law, 0.04] for law in (0.01, 0.07)]
     runs = [[rigid | {"restitution": 0.5 + d, "moment": 2.0 + d} for d in every] for every in changes]

@@ -85,8 +85,6 @@ def test_the_thesis_settings_of_its_own_cases_and_the_units_of_its_figures() -> 
     assert (found.element_length, found.time_step) == pytest.approx((2.5e-3, 2.5e-8))
     assert found.zone == pytest.approx(0.0624, abs=2e-4)
     assert unit(2.5e-5, "s") == (1e6, "µs") and unit(0.03, "m") == (1e3, "mm") and unit(12e3, "N")[1] == "kN"
-    with pytest.raises(ValueError, match="curvature"):
-        run_study("mesh", case(0.0, 0.01))
 
 
 def test_a_solver_that_cannot_finish_is_a_row_of_its_own_without_numbers() -> None:
@@ -105,15 +103,11 @@ def stored_rows(name: str) -> dict[str, dict[str, Any]]:
 
 def test_each_parameter_has_the_effect_that_the_thesis_and_theory_give_it() -> None:
     """3.3.1–3.3.5. Of no effect on the lift: the time step, ρ∞. A tenth of the lift with nodes needs lumped masses;
-    coarse elements far away reflect waves; true geometry drifts with the slopes.
-    """
+    coarse elements far away reflect waves; true geometry drifts with the slopes."""
     rows = stored_rows("time-step")
     fine = [rows[f"h = {h} s"] for h in ("5·10⁻⁸", "2.5·10⁻⁸", "10⁻⁸")]
     lifts = [row["lift"] for row in fine]
     assert max(lifts) < 1.01 * min(lifts) and all(45.0 < row["reaction_error"] < 55.0 for row in fine)  # lumped middles
-    for name, error, lift in (("Hermite", 0.2, 5e-3), ("Self-similar", 0.01, 1e-4)):
-        ours = rows[name]
-        assert abs(ours["reaction_error"]) < error and abs(ours["contact_length_error"]) < error and ours["lift"] < lift
     errors = [abs(row["reaction_error"]) for label, row in stored_rows("mesh").items() if "e = 1.25" in label]
     assert errors == sorted(errors, reverse=True) and errors[0] > 30.0 and errors[-1] < 0.2 * errors[0]
     rows = stored_rows("restitution")
@@ -212,18 +206,17 @@ def test_the_refusal_of_a_method_is_a_row_with_its_reason() -> None:
     assert all("restitution" in row["failure"] for row in rows[1:])
 
 
-SMALL = ("cases/thesis_K10.toml", "--set", "beam.length=2.0", "--set", "run.duration=0.002")
-
-
 def test_the_command_takes_methods_and_every_row_plot_and_table_carries_the_label(tmp_path: Path) -> None:
     """The labels are those of the file; a method that cannot be used is a row among the others, and no error."""
-    file, out, chosen = tmp_path / "methods.toml", tmp_path / "out", ("--methods", "cases/methods/one_of_each.toml")
-    assert "names the methods" in refused("study", "restitution", *SMALL, "--set", "hermite.mesh.growth=1.0", *chosen)
+    file, out = tmp_path / "methods.toml", tmp_path / "out"
     file.write_text(
         '[[method]]\nlabel = "Mine"\npath = "hermite"\nmesh = {kind = "uniform", element_length = 0.05}\n'
         'integrator = {kind = "moreau_jean"}\n[[method]]\nlabel = "Endless"\npath = "self_similar"\n'
     )
-    found = answered("study", "restitution", *SMALL, "--out", out, "--methods", file, "--refine", "0.5")
+    asked = ("study", "restitution", "cases/thesis_K10.toml", "--methods", file)
+    asked += ("--set", "beam.length=2.0", "--set", "run.duration=0.002")
+    assert "names the methods" in refused(*asked, "--set", "hermite.mesh.growth=1.0")
+    found = answered(*asked, "--out", out, "--refine", "0.5")
     rows, files = found["rows"], [out / f"restitution{end}" for end in (".png", ".csv", "-table.csv", ".json")]
     assert found["files"] == [str(f) for f in files] and all(f.stat().st_size > 100 for f in files)
     assert json.loads(files[-1].read_text()) == found
@@ -264,19 +257,14 @@ def test_a_small_picture_keeps_the_colours_of_thin_lines_and_a_grey_wall_grey(tm
 
 
 def test_stored_studies_carry_their_tables_and_pictures_and_say_what_was_lost(tmp_path, monkeypatch):
-    monkeypatch.setattr(stored_studies, "case_of", lambda name: case(10.0, 0.002, length=2.0))
-    file = tmp_path / "studies.json"
-    two = {name: stored_studies.STUDIES[name] for name in ("restitution", "friction")}
-    monkeypatch.setattr(stored_studies, "STUDIES", {"restitution": two["restitution"]})
-    stored_studies.store_studies(file=file)
-    (note,) = stored.read(file)["studies"]
+    cases = {"restitution": case(10.0, 0.002, length=2.0), "mesh": case(0.0, 0.002)}
+    monkeypatch.setattr(stored_studies, "case_of", cases.get)
+    monkeypatch.setattr(stored_studies, "STUDIES", {name: STUDIES[name] for name in cases})
+    monkeypatch.setattr(stored_studies, "PACKAGES", ("bent_beam.measure",))  # a digest of all takes as long as the runs
+    note, lost = stored.read(stored_studies.store_studies(file=tmp_path / "studies.json"))["studies"]
     assert [row["label"] for row in note["rows"][:3]] == ["restitution 0", "restitution 0.5", "restitution 1"]
     assert note["columns"].keys() <= note["rows"][0].keys()
     assert not note["failed"] and note["reason"] == ""
     with Image.open(tmp_path / "restitution.png") as picture:
         assert picture.mode == "P"
-    monkeypatch.setattr(stored_studies, "STUDIES", two)
-    monkeypatch.setattr(stored_studies, "note_of", lambda name, folder: stored_studies.lost(name, "no luck"))
-    stored_studies.store_studies(file=file)
-    lost = stored.read(file)["studies"][1]
-    assert lost["failed"] and lost["reason"] == "no luck" and lost["rows"] == []
+    assert lost["failed"] and "curvature" in lost["reason"] and lost["rows"] == []
