@@ -21,8 +21,7 @@ def row(error, bar):
 
 
 def test_a_bar_that_misses_is_counted_and_kept_as_a_method_that_can_be_read(tmp_path):
-    rows = [row(1e-3, 2e-3), row(1e-2, 2e-3), MatchRow("x", "x", {}, 0.5, 0, 0, 0, 0, 1.0)]
-    found = coverage(rows)
+    found = coverage([row(1e-3, 2e-3), row(1e-2, 2e-3), MatchRow("x", "x", {}, 0.5, 0, 0, 0, 0, 1.0)])
     assert (found.share, found.runs) == (0.5, 3)
     assert found.ratio == pytest.approx(1.1)  # of bars over errors: 2, 2, 0.2, 0.2
     assert found.lost == pytest.approx(1 / 3)

@@ -82,8 +82,7 @@ def run_command(words: list[str]) -> None:
 
 @pytest.mark.parametrize("page", PAGES, ids=name_of)
 def test_links_between_pages_lead_somewhere(page: Path) -> None:
-    text = FENCE.sub("", page.read_text(encoding="utf-8"))
-    for target in re.findall(r"\]\(([^)\s]+)\)", text):
+    for target in re.findall(r"\]\(([^)\s]+)\)", FENCE.sub("", page.read_text(encoding="utf-8"))):
         if not target.startswith(("http", "#", "mailto:")) and not GENERATED.search(target):
             assert (page.parent / target.partition("#")[0]).exists(), f"{name_of(page)}: {target}"
 
@@ -119,8 +118,7 @@ def test_tutorial_runs() -> None:
 
 def test_the_files_that_hold_the_facts_exist() -> None:
     text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
-    table = text[text.index("## Facts that the tests hold") : text.index("## Habits")]
-    for line in table.splitlines():
+    for line in text[text.index("## Facts that the tests hold") : text.index("## Habits")].splitlines():
         room = ""
         for name in re.findall(r"`([\w/]+\.py)`", line.rpartition(" | ")[2]):
             room = name.rpartition("/")[0] or room

@@ -78,9 +78,10 @@ def test_a_malformed_table_gets_one_line_naming_the_file_once_and_the_field(tmp_
         assert words in refusal(tmp_path / "run.csv")
 
 
-def test_a_result_without_numbers_is_kept_with_its_reason_and_not_scored():
+def test_a_result_without_numbers_or_with_those_of_a_blow_up_is_kept_with_its_reason_and_not_scored():
     asked = scored("leading-0.5", tau=TAU, J=0.0 * TAU, Jm=0.0 * TAU)  # a wall that never pushes
     assert asked.outcome == "invalid" and asked.measured == {} and "J and Jm" in str(asked.reason)
+    assert scored("leading-0.5", tau=TAU, J=TAU, Jm=1e120 * TAU).outcome.startswith("diverged(Jm[1]")
     lacks = scored("leading-0.5", outcome="unsupported(no axial force)")
     assert lacks.outcome == "unsupported(no axial force)" and lacks.measured == {} and lacks.reason == "no axial force"
 

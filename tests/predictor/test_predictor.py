@@ -62,7 +62,7 @@ def random_impacts(count: int) -> list[Impact]:
     return impacts
 
 
-@pytest.mark.parametrize(("walls", "count"), [(3, 25), pytest.param(8, 40, marks=pytest.mark.verify)])
+@pytest.mark.parametrize(("walls", "count"), [(2, 25), pytest.param(8, 40, marks=pytest.mark.verify)])
 def test_page_is_the_theory_on_random_beams(walls: int, count: int) -> None:
     shares, area, modulus = [0.003, 0.03, 0.3], 2.0, 0.5
     pointed = 10.0 ** np.random.default_rng(22).uniform(0.0, 2.0, walls)  # few of the others stand before a wall
@@ -71,9 +71,8 @@ def test_page_is_the_theory_on_random_beams(walls: int, count: int) -> None:
     beams = [{here: in_si(i, there) for here, there in NAMES.items()} | section for i in impacts]
     solved = "given.beams.map((b) => { const p = Instants.solve(b);"
     solved += " return {...p, at: given.shares.map((share) => Instants.at(p, share * p.timeScale))}; })"
-    found = evaluated(solved, {"beams": beams, "shares": shares})
     causes, compared, unknown = set(), 0, 0
-    for impact, answer in zip(impacts, found, strict=True):
+    for impact, answer in zip(impacts, evaluated(solved, {"beams": beams, "shares": shares}), strict=True):
         said, limits = theory_predict(impact, [share * impact.time_scale for share in shares]), answer["limits"]
         causes |= {said.limited_by, said.valid_after}
         assert (answer["contact"]["regime"], limits["by"], limits["after"]) == (

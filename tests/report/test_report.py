@@ -208,15 +208,10 @@ def test_acceleration_into_the_wall_spreads_the_zone_and_one_away_from_it_lifts_
         assert released["zone"].startswith("−") and released["reaction"].startswith("−")
 
 
-@pytest.fixture(scope="module")
-def browser(chromium: Any, written: Any) -> Any:
-    return opened(chromium, written.file.as_uri(), 390)
-
-
 @needs_chromium
 @pytest.mark.parametrize("width", [1400, 390])
-def test_everything_is_drawn_without_errors_or_requests_and_nothing_overflows_or_is_lost(browser, written, width):
-    opened(browser, written.file.as_uri(), width)
+def test_everything_is_drawn_without_errors_or_requests_and_nothing_overflows_or_is_lost(chromium, written, width):
+    browser = opened(chromium, written.file.as_uri(), width)
     assert beyond_the_edge(browser, "section, header, p, h2, .plot, table") == []
     cut = "[...document.querySelectorAll('.scroll > table')].filter(e => e.offsetParent)"
     assert ask(browser, f"{cut}.filter(e => e.scrollWidth > e.parentElement.clientWidth + 1).map(e => e.id)") == []
@@ -239,7 +234,8 @@ def front(browser: Any) -> float:
 
 
 @needs_chromium
-def test_slider_moves_the_contact_front_and_other_impacts_can_be_chosen(browser: Any) -> None:
+def test_slider_moves_the_contact_front_and_other_impacts_can_be_chosen(chromium: Any, written: Any) -> None:
+    browser = opened(chromium, written.file.as_uri(), 390)
     last = int(ask(browser, "Number(document.getElementById('time').max)"))
     move = "const s = document.getElementById('time'); s.value = arguments[0]; s.dispatchEvent(new Event('input'))"
     fronts, instants = [], []
