@@ -12,7 +12,6 @@ from here import CASES
 from bent_beam import method
 
 PAGE = "guide/add-method.md"
-LABEL = "Finite differences, fine"
 
 
 @pytest.fixture(autouse=True)
@@ -29,29 +28,19 @@ def installed(own_folder: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Non
     method._found.cache_clear()
 
 
-def test_match_holds_a_method_from_outside_against_theory() -> None:
-    row = answered("match", "--path", "differences", "--kappa-over-nu", "0.5")["rows"][0]
-    assert row["path"] == "differences" and row["label"] == "Finite differences"
-    for name in ("lambda0", "r0"):
-        assert row[name]["value"] == pytest.approx(row[name]["theory"], rel=0.03)
-        assert row[name]["error"] > 0.0
+def test_match_holds_the_method_of_the_page_s_list_against_theory_with_a_row_for_each_resolution() -> None:
+    Path("mine.toml").write_text(snippet(PAGE, 'label = "Finite differences, fine"'), encoding="utf-8")
+    rows = answered("match", "--methods", "mine.toml", "--kappa-over-nu", "0.5", "--refine", "0.25,0.5")["rows"]
+    assert [(row["label"], row["refine"]) for row in rows] == [("Finite differences, fine", r) for r in (0.25, 0.5)]
+    assert rows[0]["path"] == "differences" and rows[0]["steps"] < rows[1]["steps"]
+    for found in (row[name] for row in rows for name in ("lambda0", "r0")):
+        assert found["value"] == pytest.approx(found["theory"], rel=0.02) and found["error"] > 0.0
 
 
 def test_simulate_takes_its_settings() -> None:
     words = ("--path", "differences", "--set", "differences.nodes=60", "--out", "mine.nc")
     found = answered("simulate", CASES / "thesis_K10.toml", *words)
     assert Path("mine.nc").exists() and found["total_impulse"] is not None
-
-
-@pytest.mark.verify
-def test_refine_gives_a_row_for_each_resolution_of_the_page_s_list() -> None:
-    Path("mine.toml").write_text(snippet(PAGE, f'label = "{LABEL}"'), encoding="utf-8")
-    words = ("--methods", "mine.toml", "--kappa-over-nu", "0.5", "--refine", "0.25,0.5", "--out", "out")
-    rows = answered("match", *words)["rows"]
-    assert [(row["label"], row["refine"]) for row in rows] == [(LABEL, 0.25), (LABEL, 0.5)]
-    assert all(row["r0"]["value"] == pytest.approx(row["r0"]["theory"], rel=0.02) for row in rows)
-    assert rows[0]["steps"] < rows[1]["steps"]
-    assert Path("out/work-precision.png").exists() and LABEL in Path("out/match.csv").read_text()
 
 
 def test_settings_and_completion_name_it(monkeypatch: pytest.MonkeyPatch) -> None:
