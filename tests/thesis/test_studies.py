@@ -260,7 +260,6 @@ def test_stored_studies_carry_their_tables_and_pictures_and_say_what_was_lost(tm
     cases = {"restitution": case(10.0, 0.002, length=2.0), "mesh": case(0.0, 0.002)}
     monkeypatch.setattr(stored_studies, "case_of", cases.get)
     monkeypatch.setattr(stored_studies, "STUDIES", {name: STUDIES[name] for name in cases})
-    monkeypatch.setattr(stored_studies, "PACKAGES", ("bent_beam.measure",))  # a digest of all takes as long as the runs
     note, lost = stored.read(stored_studies.store_studies(file=tmp_path / "studies.json"))["studies"]
     assert [row["label"] for row in note["rows"][:3]] == ["restitution 0", "restitution 0.5", "restitution 1"]
     assert note["columns"].keys() <= note["rows"][0].keys()
