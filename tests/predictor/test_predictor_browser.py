@@ -147,8 +147,9 @@ def test_a_case_is_saved_and_opened(chromium: Any, address: str, tmp_path: Path)
     type_into(browser, "velocity", "5")
     type_into(browser, "tension", "20")
     browser.find_element("id", "save").click()
-    until((tmp_path / "impact.toml").exists, 60.0)
-    impact = load_case(tmp_path / "impact.toml").impact
+    saved = tmp_path / "impact.toml"
+    until(lambda: saved.exists() and saved.stat().st_size > 0, 60.0)  # it is there before its text
+    impact = load_case(saved).impact
     assert impact.velocity == 5.0 and impact.axial_force == 20e3
     for name, note in (("drill_pipe", "is read"), ("two_walls", "beam.bending_stiffness is not on this page")):
         browser.find_element("id", "open").send_keys(str(Path(f"cases/{name}.toml").resolve()))
