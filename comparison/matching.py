@@ -171,7 +171,7 @@ def answer(question: MatchQuestion, store: RunStore, limit: float | None = None)
         warnings.append(f"wide error bar: r₁ = {estimate.r1}")
     if estimate is not None and not shows_zone(question, leading):
         warnings.append(
-            f"λ₁ is missing: the run shows no zone that spreads (λ₀ = {leading.lambda0}); take finer elements"
+            f"λ₁ is missing: the run shows no zone, λ₀ = {leading.lambda0} is not larger than its error bar"
         )
     warnings += _of_rigid_wall(question)
     readings = [r.reading for r in fine.runs]

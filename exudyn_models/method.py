@@ -7,7 +7,7 @@ are laid out by :mod:`exudyn_models.assembly`.
 """
 
 import dataclasses
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, Self
 
@@ -144,14 +144,9 @@ class ExudynModel(Part):
                     yield f"{other} is not modelled together with {name} (got {given!r}); the Hermite path follows both"
         element = self.element or chosen_element(impact)
         of_contact = contact.refuses(impact, element, self.integrator or contact.integrator)
-        yield from filter(None, (element.refuses(impact), of_contact))
-        # of the linear limit, where it matters under an axial force, and must bear that
-        stiffness, least = element.axial_stiffness, abs(impact.axial_force) / MOST_STRAIN
-        if not (true or stiffness is None or 0.0 < least <= stiffness):
-            said = (
-                f"must be {least:g} N at least, to bear axial_force" if least else "has no effect without axial_force"
-            )
-            yield f"exudyn.element.axial_stiffness {said}, in the linear limit (got {stiffness!r})"
+        yield from filter(
+            None, (element.refuses(impact), of_contact, None if true else _unfit_stiffness(element, impact))
+        )
         yield from self._unused_of_solver(contact)
         if true and impact.off_centre:
             yield "exudyn.geometry.kind true knows the symmetric bow only: with rotation or first_touch take linear"
@@ -169,13 +164,23 @@ class ExudynModel(Part):
                 yield f"exudyn.solver.{name} has no effect with {other}: leave it out (got {value!r})"
 
     def simulate(
-        self, impact: Impact, *, end_time: float | None = None, save: Save = 200, progress: Progress | None = None
+        self,
+        impact: Impact,
+        *,
+        end_time: float | None = None,
+        save: Save = 200,
+        progress: Progress | None = None,
     ) -> ImpactHistory:
         """Follow ``impact`` to ``end_time`` (s); see :func:`exudyn_models.simulate`."""
         return simulate(impact, end_time=end_time, save=save, progress=progress, **made_of(self))
 
     def simulate_to_separation(
-        self, impact: Impact, *, longest: float | None = None, save: int = 2000, progress: Progress | None = None
+        self,
+        impact: Impact,
+        *,
+        longest: float | None = None,
+        save: int = 2000,
+        progress: Progress | None = None,
     ) -> ImpactHistory:
         """Follow ``impact`` until the beam has left for good (:func:`bent_beam.method.simulate_to_separation`)."""
         times, separation = separation_times(impact, longest, save), Separation(impact)
@@ -186,6 +191,15 @@ class ExudynModel(Part):
 
         parts = made_of(self.for_whole_beam(impact))
         return simulate(impact, end_time=float(times[-1]), save=times, progress=progress, until=until, **parts)
+
+
+def _unfit_stiffness(element: Element, impact: Impact) -> str | None:
+    """Why the linear limit cannot take a given axial stiffness: it matters under an axial force, and must bear that."""
+    stiffness, least = element.axial_stiffness, abs(impact.axial_force) / MOST_STRAIN
+    if stiffness is None or 0.0 < least <= stiffness:
+        return None
+    said = f"must be {least:g} N at least, to bear axial_force" if least else "has no effect without axial_force"
+    return f"exudyn.element.axial_stiffness {said}, in the linear limit (got {stiffness!r})"
 
 
 def held_for(contact: Contact | None, impact: Impact) -> Contact:
@@ -207,7 +221,7 @@ def simulate(
     end_time: float | None = None,
     save: Save = 200,
     view: bool = False,
-    progress: Progress | None = None,
+    progress: Callable[[float], object] | None = None,
     until: Until | None = None,
     **parts: Any,
 ) -> ImpactHistory:
@@ -244,7 +258,10 @@ def simulate(
     saved = targets[: stepping.saved] * end if stepping.left else np.asarray(save)  # what a rerun needs
     settings = {"end_time": end, "save": saved.tolist(), **stepping.settings_of_run()}
     history = stepping.run.history(
-        settings=settings, steps=stepping.steps, seconds=stepping.seconds, completed=stepping.failure is None
+        settings=settings,
+        steps=stepping.steps,
+        seconds=stepping.seconds,
+        completed=stepping.failure is None,
     )
     history = history.with_warnings(warnings_of_run(stepping, history))
     if stepping.failure is not None:

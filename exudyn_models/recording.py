@@ -22,7 +22,6 @@ import numpy as np
 from bent_beam import ImpactHistory
 from bent_beam.files import ENERGIES
 from exudyn_models.contacts import ContactRun
-from exudyn_models.contacts.penalty import SpringsRun
 from exudyn_models.elements import Beam
 from exudyn_models.geometry import Array
 from exudyn_models.integrators import Averages
@@ -40,8 +39,15 @@ def means(rows: Array) -> Array:
     return np.asarray((rows[1:] + rows[:-1]) / 2)
 
 
+def nodal_means(ends: Array) -> Array:
+    """Of what both elements say at a node, (rows, nodes), from (rows, elements, 2)."""
+    sums = np.pad(ends[..., 0], ((0, 0), (0, 1))) + np.pad(ends[..., 1], ((0, 0), (1, 0)))
+    sums[:, 1:-1] /= 2.0
+    return np.asarray(sums)
+
+
 def nodal_largest(ends: Array) -> Array:
-    """The larger size of what both elements say at a node, (rows, nodes), from (rows, elements, 2)."""
+    """Likewise the size of the larger."""
     sizes = np.pad(np.abs(ends), ((0, 0), (1, 1), (0, 0)))
     return np.asarray(np.maximum(sizes[:, :-1, 1], sizes[:, 1:, 0]))
 
@@ -126,12 +132,11 @@ class Recorder:
         if len(self._rows) < 2 and not self._pending:
             return
         time, q, v, a, force, along, active = (np.array(column) for column in zip(*self._rows))
-        beam, saved = self.beam, self._pending
+        dt, beam, saved = np.diff(time), self.beam, self._pending
         gains = self._of_energy(time, q, v, a) | self._of_contact(time, q, v, force, along)
         after = {name: onwards(self.sums[name], gain) for name, gain in gains.items()}
         total = self.start_momentum + after["load_impulse"] - v @ self.momentum
-        gain, self._averaged = self.averages.impulses(force, self._averaged)  # as the scheme averages
-        of_law = gain * np.diff(time)[:, None]
+        of_law = self._impulses_of_law(dt, force)
         after["law_impulse"] = onwards(self.sums["law_impulse"], of_law.sum(axis=1))
         after["impulse"] = onwards(self.sums["impulse"], self._shared(of_law, q, np.diff(total)))
         if self.scaling.impact.supported:
@@ -141,17 +146,13 @@ class Recorder:
         now = {"time": time, "y": y, "velocity": v[:, beam.vertical], "slope": slope}
         now |= {"total_impulse": total, "in_contact": active}
         if beam.scaling.shear_length:
-            means_of_both = np.pad(moments[..., 0], ((0, 0), (0, 1))) + np.pad(moments[..., 1], ((0, 0), (1, 0)))
-            means_of_both[:, 1:-1] /= 2.0
-            now |= {"angular_velocity": v[:, beam.rotation], "bending_moment": means_of_both}
+            now |= {"angular_velocity": v[:, beam.rotation], "bending_moment": nodal_means(moments)}
         for name, values in (after | now).items():
             self.record[name] += [values[k].copy() for k in saved]
         self.record["kinetic_energy"] += beam.kinetic_energy(v[saved]).tolist()
         self.record["strain_energy"] += beam.strain_energy(q[saved]).tolist()
         self.record["stretch_energy"] += beam.stretch_energy(q[saved]).tolist()
-        largest = nodal_largest(moments)  # since the saved instant before, its place, and the one in the middle
-        place, middle = beam.shape.place[largest.argmax(axis=1)], largest[:, np.argmin(np.abs(beam.shape.s))]
-        self._keep_largest("moments", largest.max(axis=1), place, middle, anew=True)
+        self._note_moments(moments)
         self.sums |= {name: values[-1] for name, values in after.items()}
         self.total = float(total[-1])
         late = time > (0.1 if beam.shears else 0.01)  # its first hits are those of a string
@@ -159,6 +160,12 @@ class Recorder:
             depth = y[late][:, self.contact.nodes].max(axis=1)  # what lies beyond them is let through
             self.deepest = max(self.deepest, float((depth / time[late]).max()))
         self._pending, self._rows = [], self._rows[-1:]
+
+    def _note_moments(self, moments: Array) -> None:
+        """The largest bending moment since the saved instant before, its place, and the one in the middle."""
+        shape, nodes = self.beam.shape, nodal_largest(moments)
+        middle = nodes[:, np.argmin(np.abs(shape.s))]
+        self._keep_largest("moments", nodes.max(axis=1), shape.place[nodes.argmax(axis=1)], middle, anew=True)
 
     def _keep_largest(self, name: str, sizes: Array, where: Array, *others: Array, anew: bool) -> None:
         """Save with each instant the largest of ``sizes``, ``where`` it was, and the largest of each of ``others``, of
@@ -201,17 +208,22 @@ class Recorder:
             gains["contact_work"] = gains["contact_work"] - products(means(along), moved)
         if contact.held_until:  # no other law pulls
             gains |= {"pulls": np.maximum(-pushes, 0.0), "pushes": pushes}
-        if isinstance(contact, SpringsRun):
+        if contact.wall_springs is not None:
             s, speed = self.scaling, v[:, contact.coordinates]
             delay = s.impact.wall_damping / (s.impact.wall_stiffness or math.inf) / s.end_time  # c/k
             landing = np.pad(contact.landing(depth, speed), ((1, 0), (0, 0)))
-            pressure = np.maximum(np.where(depth > 0.0, depth + delay * speed, 0.0), landing / contact.stiffness)
+            pressure = np.maximum(np.where(depth > 0.0, depth + delay * speed, 0.0), landing / contact.wall_springs)
             deepest, whole, landed = np.maximum(depth, 0.0).max(axis=1), force.sum(axis=1), landing.sum(axis=1)
             when = np.where(landed > whole, np.roll(time, 1), time)  # as a step begins
             self._keep_largest("peaks", np.maximum(whole, landed), when, deepest, pressure.max(axis=1), anew=False)
-            dashpots = np.where(depth > 0.0, force - contact.stiffness * depth, 0.0)  # also slow what would pull
+            dashpots = np.where(depth > 0.0, force - contact.wall_springs * depth, 0.0)  # also slow what would pull
             gains["loss_wall"] = products(means(dashpots), deeper)
         return gains
+
+    def _impulses_of_law(self, dt: Array, force: Array) -> Array:
+        """Impulse of the contact law's force at each point in each step, (steps, contacts), as the scheme averages."""
+        gain, self._averaged = self.averages.impulses(force, self._averaged)
+        return np.asarray(gain * dt[:, None])
 
     def _shared(self, gain: Array, q: Array, total: Array) -> Array:
         """``gain`` of each contact point in each step, (steps, contacts). What its sum lacks of ``total``, (steps,), is

@@ -18,7 +18,7 @@ import numpy as np
 from bent_beam.checks import MOST_INSTANTS, affordable, between, whole
 from bent_beam.errors import InputError
 from bent_beam.fields import describe
-from bent_beam.method import Progress, Save
+from bent_beam.method import Save
 from exudyn_models.assembly import Chosen, Layout, assemble, settings_of, stable_step
 from exudyn_models.geometry import Array
 from exudyn_models.recording import Recorder
@@ -73,7 +73,12 @@ class Stepping:
     """
 
     def __init__(
-        self, layout: Layout, chosen: Chosen, targets: Array, progress: Progress | None, until: Until | None
+        self,
+        layout: Layout,
+        chosen: Chosen,
+        targets: Array,
+        progress: Callable[[float], object] | None,
+        until: Until | None,
     ) -> None:
         scaling, integrator, nodes = layout.scaling, chosen.integrator, layout.shape.s.size
         if nodes > MOST_NODES:
@@ -86,8 +91,11 @@ class Stepping:
         crossing = min(0.01, (layout.places[1] / scaling.front) ** 2)
         self.segments = integrator.segments(crossing, scaling.end_time, self.stable)
         self.flight = (getattr(integrator, "flight_step", None) or 0.0) / scaling.end_time
-        left = math.inf if until is None else scaling.impact.slow_time_scale / scaling.end_time  # most beams after a T*
-        steps = round(sum(segment.steps for segment in self.segments) * min(float(targets[-1]), left))
+        steps = sum(segment.steps for segment in self.segments)
+        last = float(targets[-1])
+        if until is not None:  # most beams have left after a T*
+            last = min(last, scaling.impact.slow_time_scale / scaling.end_time)
+        steps = round(steps * last)
         affordable("exudyn.integrator and mesh", steps, nodes, targets.size, MOST_WORK)
         if (expected := SECONDS * steps * nodes) > LONG:
             so_long = "up to" if self.flight else "about"
@@ -192,22 +200,13 @@ class Stepping:
     def _all_segments(self, mbs: Any) -> None:
         if self.settling is not None:
             mbs.SetPostNewtonUserFunction(self.settling)
-        run, first = self.run, self.segments[0]
         try:
-            first.lay(self.settings.timeIntegration)
-            began = clock.perf_counter()
-            if not self.solver.InitializeSolver(mbs, self.settings):
-                self.failure = "Exudyn could not initialise"
-                return
-            self.seconds += clock.perf_counter() - began
-            q, v = run.read(0.0)
-            run.save(q)
-            run.contact.between(0.0, first.length, q, v)
-            mbs.SetPostStepUserFunction(self)
-            for segment in self._in_flight() if self.flight else self.segments:
-                self._step_through(segment)
-                if self.failure is not None or self._over:
-                    break
+            if self._started(self.segments[0]):
+                mbs.SetPostStepUserFunction(self)
+                for segment in self._in_flight() if self.flight else self.segments:
+                    self._step_through(segment)
+                    if self.failure is not None or self._over:
+                        break
         except FloatingPointError as error:
             self.failure = str(error)
         except SystemError as error:  # what was raised while Exudyn ran, an interrupt by the user above all
@@ -216,7 +215,21 @@ class Stepping:
             self._failed(str(error))
         finally:
             mbs.SetPostStepUserFunction(0)
-            run.sum_up()
+            self.run.sum_up()
+
+    def _started(self, first: Segment) -> bool:
+        """Whether Exudyn took the system; the state at t = 0 is then read and saved."""
+        run = self.run
+        first.lay(self.settings.timeIntegration)
+        began = clock.perf_counter()
+        if not self.solver.InitializeSolver(run.beam.mbs, self.settings):
+            self.failure = "Exudyn could not initialise"
+            return False
+        self.seconds += clock.perf_counter() - began
+        q, v = run.read(0.0)
+        run.save(q)
+        run.contact.between(0.0, first.length, q, v)
+        return True
 
     def _in_flight(self) -> Iterator[Segment]:
         """Segments whose steps grow with the smallest gap, from those near the wall up to ``flight``."""

@@ -45,7 +45,8 @@ def refusal(impact: Impact, contact: Contact | None) -> str | None:
 
 def spreads(impact: Impact) -> bool:
     """Whether a front spreads from the middle, on a wall all along a beam without supports."""
-    return not (impact.opposite_wall is not None or impact.off_centre or impact.supported or impact.wall_in_part)
+    alone = impact.opposite_wall is None and not impact.off_centre
+    return alone and not impact.supported and not impact.wall_in_part
 
 
 def simulate(
@@ -155,6 +156,15 @@ def check_start(model: BeamModel) -> None:
         )
 
 
+def turnings_of(impact: Impact, model: BeamModel, run: Trajectory) -> dict[str, tuple[Sequence[str], NDArray[Any]]]:
+    """The second dof of the nodes: the slope, with shear the section's angle, its rate and the bending moment."""
+    turned, where = run.q[:, 1::2] + model.natural[1::2], ("time", "x")
+    if impact.shear_stiffness is None:
+        return {"slope": (where, turned)}
+    moment = model.bending_moments(run.q)
+    return {"angle": (where, turned), "angular_velocity": (where, run.v[:, 1::2]), "bending_moment": (where, moment)}
+
+
 def history_of(impact: Impact, model: BeamModel, run: Trajectory, settings: dict[str, Any]) -> ImpactHistory:
     """The record of a run: fields of the model, sums of the whole beam; of two walls the impulses apart, their sum with
     its sign."""
@@ -173,7 +183,7 @@ def history_of(impact: Impact, model: BeamModel, run: Trajectory, settings: dict
     fields: dict[str, tuple[Sequence[str], NDArray[Any]]] = {
         "gap": (("time", "x"), model.gap(run.q)),
         "velocity": (("time", "x"), run.v[:, 0::2]),
-        "slope" if impact.shear_stiffness is None else "angle": (("time", "x"), run.q[:, 1::2] + model.natural[1::2]),
+        **turnings_of(impact, model, run),
         "impulse": (("time", "contact"), run.impulse[:, front]),
         "in_contact": (("time", "contact"), run.closed[:, front]),
         "total_impulse": (("time",), copies * run.impulse @ towards),
@@ -181,9 +191,6 @@ def history_of(impact: Impact, model: BeamModel, run: Trajectory, settings: dict
         "smallest_gap": (("time",), run.gap.min(axis=1)),
         **{name: (("time",), values) for name, values in sums.items()},
     }
-    if impact.shear_stiffness is not None:
-        fields["angular_velocity"] = (("time", "x"), run.v[:, 1::2])
-        fields["bending_moment"] = (("time", "x"), model.bending_moments(run.q))
     if np.any(behind):
         fields["in_contact"] = (("time", "contact"), run.closed[:, front] | run.closed[:, behind])
         fields["opposite_impulse"] = (("time", "contact"), run.impulse[:, behind])

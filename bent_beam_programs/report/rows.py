@@ -89,10 +89,17 @@ class TableRow:
     row: MatchRow
 
     @property
+    def columns(self) -> list[Cell | None]:
+        """What the row is about: λ₁ and r₁ of a load, λ₀ and r₀ otherwise; ``None`` where it has no number."""
+        numbers, kappa = self.row.compared(), self.row.kappa_over_nu
+        return [
+            None if one.covered is None else Cell(name, one, tolerance(name, kappa)) for name, one in numbers.items()
+        ]
+
+    @property
     def cells(self) -> list[Cell]:
-        """What the row is about: λ₁ and r₁ where it has them, λ₀ and r₀ otherwise."""
-        numbers = {name: number for name, number in self.row.compared().items() if number.covered is not None}
-        return [Cell(name, one, tolerance(name, self.row.kappa_over_nu)) for name, one in numbers.items()]
+        """Those of :attr:`columns` that it has."""
+        return [cell for cell in self.columns if cell is not None]
 
     @property
     def ratio_text(self) -> str:

@@ -32,8 +32,11 @@ def stored_studies(file: Path = STUDIES) -> list[dict[str, Any]]:
 
 
 def stored_numbers() -> dict[str, Any]:
-    """The stored table of printed numbers. summary : the count in words, both ways; classes : class → its rows (where,
-    what, printed, ours, ratio, class, with (3.1.8), why); figures : id, title and picture of each; date; stale."""
+    """The stored table of printed numbers.
+
+    summary : the count in words, both ways; classes : class → its rows (where, what, printed, ours, ratio, class, with
+    (3.1.8), why); figures : id, title and picture of each; date; stale.
+    """
     found = stored.read(NUMBERS)
     return {
         "summary": found["summary"],

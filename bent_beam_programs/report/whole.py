@@ -29,9 +29,11 @@ WHOLE = {
 
 
 def pipe_prediction(file: Path = PIPE, store: RunStore | None = None) -> dict[str, Any]:
-    """The prediction of the pipe of a case file. case; rows : time (ms), by what, and a text for each of
-    :data:`COLUMNS`; validity : of the theory, in words; whole : texts of the whole impact as the case states it;
-    damping : (ratio in %, largest stress in MPa); yield_stress, MPa."""
+    """The prediction of the pipe of a case file.
+
+    case; rows : time (ms), by what, and a text for each of :data:`COLUMNS`; validity : of the theory, in words; whole :
+    texts of the whole impact as the case states it; damping : (ratio in %, largest stress in MPa); yield_stress, MPa.
+    """
     case = load_case(file)
     document = predict_case(case, TIMES, store=store).to_dict()
     rows = [

@@ -4,7 +4,7 @@
 A number that is missing is left out, and the figure says how many were.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from itertools import cycle
 from pathlib import Path
 from typing import Any
@@ -39,7 +39,7 @@ def draw_matching(rows: Sequence[MatchRow], out: Path) -> list[Path]:
     """Every matching plot that the rows have data for; returns the files. The finest refinement is drawn."""
     shown = _best(rows, lambda r: (r.label, r.kappa_over_nu, r.first), lambda r: r.refine)
     files = style.save(leading_figure(shown), out, "leading") if any(r.lambda0.measured for r in shown) else []
-    if any(r.lambda1.measured for r in shown):
+    if any(r.r1.measured for r in shown):
         files += draw_first_order(shown, out)
     return files
 
@@ -67,7 +67,7 @@ def leading_figure(rows: Sequence[MatchRow]) -> Any:
             _compare(top, below, leading, what)
         style.label_panels(*axes[0])
         axes[0, 0].legend()
-        _say_what_is_missing(fig, [r for r in leading if not r.lambda0.measured])
+        _say_what_is_missing(fig, {"left out, no number": [r for r in leading if not r.lambda0.measured]})
         return fig
 
 
@@ -129,7 +129,8 @@ def draw_first_order(rows: Sequence[MatchRow], out: Path) -> list[Path]:
         for mark in [*marks.values(), style.THEORY]:
             axes[1].plot([], [], **mark)
         axes[1].legend()
-        _say_what_is_missing(fig, [r for r in asked if not r.lambda1.measured])
+        unseen = [r for r in asked if r.r1.measured and not r.lambda1.measured]
+        _say_what_is_missing(fig, {"left out, no number": [r for r in asked if not r.r1.measured], "no λ₁": unseen})
         return style.save(fig, out, "first-order")
 
 
@@ -148,8 +149,11 @@ def _curve(rows: Sequence[MatchRow], first: First | None, what: str) -> tuple[An
     return curve, getattr(contact_parameters(curve, *first[:3], axial=first[3]), what)
 
 
-def _say_what_is_missing(fig: Any, lost: Sequence[MatchRow]) -> None:
-    if lost:
-        labels = ", ".join(dict.fromkeys(r.label for r in lost))
-        rows = f"{len(lost)} row{'s' if len(lost) > 1 else ''}"
-        fig.supxlabel(f"left out, no number: {rows} ({labels[:120]})", fontsize=6.5)
+def _say_what_is_missing(fig: Any, lost: Mapping[str, Sequence[MatchRow]]) -> None:
+    said = []
+    for what, rows in lost.items():
+        if rows:
+            labels = ", ".join(dict.fromkeys(r.label for r in rows))
+            said.append(f"{what}: {len(rows)} row{'s' if len(rows) > 1 else ''} ({labels[:120]})")
+    if said:
+        fig.supxlabel("; ".join(said), fontsize=6.5)

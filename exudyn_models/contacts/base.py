@@ -116,6 +116,7 @@ class ContactRun(ABC):
     imposes = False  # whether ``closed_by`` says which connectors are closed, in the place of the signs of gaps
     along: Array | None = None  # forces on the beam along x with the last ``forces``, (contacts,), where there are any
     assumed: Array | None = None  # the states that the last step was solved with, where Exudyn finds them
+    wall_springs: Array | None = None  # stiffness at the contact points of a wall that gives way, (contacts,)
     strip: HeldStrip | None = None  # of a contact that may hold captured nodes
     chosen: Mapping[str, float] = {}  # settings that were left open, as they were chosen
     round_off = 0.0  # force in Exudyn's connectors that means nothing: no residual can be made smaller
@@ -137,6 +138,11 @@ class ContactRun(ABC):
     def plain_forces(self, q: Array, v: Array) -> Array:
         """Contact forces where Exudyn's own judgement of the states stands, shape (contacts,)."""
         return self.forces(q, v)[0]
+
+    def landing(self, depth: Array, speed: Array) -> Array:
+        """Force at each contact point at the instant of a step at which all of a stop or plate lands at once, 0 in
+        other steps: (steps, contacts), of depth and speed into the wall, (steps + 1, contacts)."""
+        return np.zeros_like(depth[1:])
 
     def stored_energy(self, q: Array) -> float:
         """Energy that the contact's springs hold."""

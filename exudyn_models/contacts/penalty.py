@@ -232,7 +232,7 @@ class SpringsRun(PenaltyRun):
     def __init__(self, beam: Beam, wall: Wall, stiffness: float) -> None:
         strip = HeldStrip(wall, hold=0, start=0.0)
         super().__init__(beam, wall, stiffness * wall.weights, wall.damping * wall.weights, strip, {})
-        self.wall = wall
+        self.wall, self.wall_springs = wall, self.stiffness
 
     def between(self, time: float, step: float, q: Array, v: Array) -> bool:
         if self.wall.damping and not self.wall.stop:
@@ -253,8 +253,6 @@ class SpringsRun(PenaltyRun):
         return force, closed & (self.depth(q) > 0.0)
 
     def landing(self, depth: Array, speed: Array) -> Array:
-        """Force at each contact point at the instant of a step at which all of a stop or plate lands at once, 0 in
-        other steps: (steps, contacts), of depth and speed into the wall, (steps + 1, contacts)."""
         impact = self.beam.scaling.impact
         share = impact.damping_at_landing / (impact.wall_damping or 1.0)
         low, high, after = depth[:-1].min(axis=1), depth[:-1].max(axis=1), depth[1:].max(axis=1)

@@ -35,10 +35,11 @@ STABLE = 0.8  # of the length of a step times the bound of the frequencies; Verl
 
 
 class MasslessMemory(NamedTuple):
-    """conditions : of the contact, their ``p`` λ, N, when solved, then the step's impulse.
+    """conditions : of the contact, their ``p`` λ, N, when solved, then the step's impulse; inner : (dofs,), those with
+    mass.
 
-    inner : (dofs,), those with mass; fastest : bound of their frequencies, everything else held, 1/s.
-    push : (rows,), λ at the instant reached. Work arrays, (dofs,): b, dq, mean velocity, force, scratch.
+    fastest : bound of the frequencies, 1/s; push : (rows,), λ at the instant reached. Work arrays, (dofs,): b, dq, mean
+    velocity, force, scratch.
     """
 
     conditions: Constraints
@@ -60,25 +61,18 @@ class MasslessBoundary(Integrator):
     damped: ClassVar[bool] = False
 
     def start(self, problem: Problem, state: State) -> MasslessMemory:
-        kind = "integrator.kind: massless_boundary"
-        if problem.matrices.causes.size:
-            raise InputError(f"{kind} takes no damping: far_field.viscosity and that of beam and wall must be 0")
-        if np.any(state.bending.phi):
-            raise InputError(f"{kind} leaves out the inertia of slopes: shear_stiffness is not modelled")
-        if problem.rows.dofs.shape[1] > 1:
-            raise InputError(f'{kind} needs contact points that are dofs: contact.kind must be "alternate"')
+        refuse(problem, state)
         matrices, solver, stride = problem.matrices, problem.solver, 2 if state.bending.lengths.size else 1
         mass = moved_masses(problem, stride)
         inner = (mass > 0.0) & ~solver.fixed[solver.unknown]
-        root = np.where(inner, 1.0 / np.sqrt(np.where(inner, mass, 1.0)), 0.0)
-        fastest = float(np.sqrt((root * product(np.abs(matrices.K), root)).max()))
         matrices.M[:] = 0.0  # of this run from here on
         matrices.M[0] = np.where(inner, mass, 0.0)
         solver.fixed[solver.unknown[inner]] = True  # while the others find their equilibrium
         recompiling(lambda: prepare(problem, 0.0, 1.0, 0.0, 0.0))  # K, and masses where nothing is solved for
         memory = MasslessMemory(
-            constraints_of(problem.rows), inner, fastest, np.zeros_like(state.impulse), *np.zeros((5, state.q.size))
-        )
+            constraints_of(problem.rows), inner, fastest(matrices.K, mass, inner), np.zeros_like(state.impulse),
+            *np.zeros((5, state.q.size)),
+        )  # fmt: skip
         if recompiling(lambda: settle(problem, state, memory, 0.0)) != SOLVED:
             raise InputError("integrator.kind: the points that keep mass in massless_boundary must hold all others")
         memory.push[:] = memory.conditions.p
@@ -90,6 +84,17 @@ class MasslessBoundary(Integrator):
         needed = times[-1] * memory.fastest / STABLE
         affordable("integrator.kind = massless_boundary and mesh", needed, state.q.size // 2, 1, MOST_WORK)
         return take_steps(problem, state, memory, times, first, last)
+
+
+def refuse(problem: Problem, state: State) -> None:
+    """``InputError`` for what the scheme does not have."""
+    kind = "integrator.kind: massless_boundary"
+    if problem.matrices.causes.size:
+        raise InputError(f"{kind} takes no damping: far_field.viscosity and that of beam and wall must be 0")
+    if np.any(state.bending.phi):
+        raise InputError(f"{kind} leaves out the inertia of slopes: shear_stiffness is not modelled")
+    if problem.rows.dofs.shape[1] > 1:
+        raise InputError(f'{kind} needs contact points that are dofs: contact.kind must be "alternate"')
 
 
 def moved_masses(problem: Problem, stride: int) -> Array:
@@ -114,6 +119,12 @@ def moved_masses(problem: Problem, stride: int) -> Array:
     mass[:-stride] += given[stride:]
     mass[stride:] += given[:-stride]
     return mass
+
+
+def fastest(K: Array, mass: Array, inner: Flags) -> float:
+    """A bound of the frequencies of the points with mass, everything else held, 1/s."""
+    root = np.where(inner, 1.0 / np.sqrt(np.where(inner, mass, 1.0)), 0.0)
+    return float(np.sqrt((root * product(np.abs(K), root)).max()))
 
 
 @compiled
@@ -169,7 +180,7 @@ def step(problem: Problem, state: State, memory: MasslessMemory, t: float, h: fl
         if not memory.inner[i]:
             mean_v[i] = memory.dq[i] / h
         v[i] = mean_v[i] + 0.5 * h * a[i]  # a is 0 where there is no mass
-    note_complementarity(problem.rows, memory.conditions, memory.dq, 1.0, state.worst)  # p is λ here, N
+    note_complementarity(problem.rows, memory.conditions, memory.dq, 1.0, 1.0, state.worst)  # p is λ here, N
     for j in range(p.size):
         now = p[j]
         p[j] = 0.5 * h * (memory.push[j] + now)

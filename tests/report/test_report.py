@@ -2,6 +2,7 @@
 
 import re
 from collections import Counter
+from dataclasses import replace
 from html import unescape
 from pathlib import Path
 from types import SimpleNamespace
@@ -13,6 +14,7 @@ from chromium import ask, assert_quiet, beyond_the_edge, needs_chromium, opened
 from matplotlib.figure import Figure
 from report_fixtures import KEPT, METHODS, impacts, lost, pipe, row, rows, studies
 
+from bent_beam.measure.numbers import MISSING
 from bent_beam_programs.report import page
 from bent_beam_programs.report.impacts import FRAMES, SHOWN, acceleration_rows, energies, theory_of
 from bent_beam_programs.report.rows import (
@@ -140,6 +142,12 @@ def test_grade_is_error_against_tolerance(off: float, grade: str) -> None:
     assert [c.grade for c in cells] == [grade, grade]
     assert [c.error for c in cells] == pytest.approx([off, -off])
     assert cells[0].error_text.startswith("+") and cells[1].error_text.startswith("−")
+
+
+def test_a_missing_number_leaves_its_columns_in_place() -> None:
+    unseen = replace(row("hermite", 0.9, (4.0, 0.0, 0.0), 1e-3), lambda1=MISSING)
+    lambda1, r1 = TableRow(unseen).columns
+    assert lambda1 is None and r1 is not None and r1.theory_text == f"{unseen.r1.theory:.6g}"
 
 
 def test_summary_and_headline_come_from_the_rows() -> None:
