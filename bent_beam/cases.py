@@ -50,8 +50,10 @@ class Case:
     damping_stated: bool = True
 
     def method(self, path: str, *, label: str | None = None) -> Method:
-        """The method of ``path`` with the parts that this case sets for it. Raises :class:`InputError` for an unknown
-        path, part or value, in the tables of other paths too."""
+        """The method of ``path`` with the parts that this case sets for it.
+
+        Raises :class:`InputError` for an unknown path, part or value, in the tables of other paths too.
+        """
         from bent_beam.method import method_from_tables
 
         for name, table in self.tables.items():

@@ -148,7 +148,9 @@ def describe(part: Any) -> dict[str, Any]:
 
 def made_from(part: type[T], values: Any, where: str, more: Iterable[str] = ()) -> T:
     """The dataclass ``part`` from the table ``values``; ``more``: further keys that the error for an unknown one names.
-    Raises :class:`InputError` for an unknown key (naming the nearest), a missing field, or a value that is refused."""
+
+    Raises :class:`InputError` for an unknown key (naming the nearest), a missing field, or a value that is refused.
+    """
     if not isinstance(values, Mapping):
         raise InputError(f"{where} must be a table (got {checks.shortened(values)})")
     fields = {key_of(field.name): field for field in dataclasses.fields(part) if field.init}  # type: ignore[arg-type]
@@ -173,7 +175,8 @@ def part_from_table(kinds: Mapping[str, type], table: Any, where: str) -> Any:
         raise InputError(f"{where}.kind is required (one of {', '.join(sorted(kinds))})")
     kind = table["kind"]
     if not isinstance(kind, str) or kind not in kinds:
-        raise InputError(f"{where}.kind: {checks.shortened(kind)} is not known{nearest(checks.shortened(kind), kinds)}")
+        near = nearest(kind if isinstance(kind, str) else "", kinds)
+        raise InputError(f"{where}.kind: {checks.shortened(kind)} is not known{near}")
     values = {key: value for key, value in table.items() if key != "kind"}
     return made_from(kinds[kind], values, where, more=("kind",))
 

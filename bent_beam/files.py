@@ -65,7 +65,10 @@ CONTROL = {"Cc", "Cf", "Cs"}  # of Unicode
 
 def write_atomically(file: Path, content: str | bytes | memoryview) -> None:
     """Write a file so that a reader sees either nothing or all of it, and a killed run leaves no half of it. A link is
-    followed. Raises ``OSError`` that names the file: a full disk does not say by itself which one it could not take."""
+    followed.
+
+    Raises ``OSError`` that names the file: a full disk does not say by itself which one it could not take.
+    """
     file = file.resolve()
     file.parent.mkdir(parents=True, exist_ok=True)
     part = file.with_name(f".{file.name[:100]}.{secrets.token_hex(4)}.part")

@@ -148,7 +148,7 @@ class ImpactHistory:
         """Sides of the first touch that were modelled: 1 of the half beam, 2 of the full one."""
         return 2 if self.symmetry == "full" else 1
 
-    @cached_property
+    @property
     def settings(self) -> dict[str, Any]:
         return dict(json.loads(self.attrs["settings"]))
 

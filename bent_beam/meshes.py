@@ -55,7 +55,9 @@ def checked_nodes(nodes: Array) -> Array:
 
 def snapped(nodes: Array, places: Iterable[float]) -> Array:
     """``nodes`` of the half beam with those nearest to ``places`` of either half, m from the middle, moved onto them.
-    Raises ``ValueError`` where the elements are too large to have a node at every place."""
+
+    Raises ``ValueError`` where the elements are too large to have a node at every place.
+    """
     moved, near, wanted = nodes.copy(), NEAR * nodes[-1], np.unique(np.abs([*places]))
     wanted = wanted[(wanted > near) & (wanted < nodes[-1] - near)]
     wanted = wanted[np.diff(wanted, prepend=-np.inf) > near]  # of both halves, but for round-off

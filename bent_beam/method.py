@@ -63,9 +63,11 @@ class Method(Protocol):
     def simulate(
         self, impact: Impact, *, end_time: float | None = None, save: Save = 200, progress: Progress | None = None
     ) -> ImpactHistory:
-        """Follow ``impact`` to ``end_time`` (s). ``save``: number of saved instants, or their times, s. Raises
-        :class:`bent_beam.InputError` for what it refuses, :class:`bent_beam.SimulationError` when it cannot finish; any
-        other error is a failure too."""
+        """Follow ``impact`` to ``end_time`` (s). ``save``: number of saved instants, or their times, s.
+
+        Raises :class:`bent_beam.InputError` for what it refuses, :class:`bent_beam.SimulationError` when it cannot
+        finish; any other error is a failure too.
+        """
 
 
 def chosen_for(method: M, impact: Impact, end_time: float) -> M:
@@ -144,8 +146,10 @@ def time_on_wall(impact: Impact) -> float:
 def separation_times(impact: Impact, longest: float | None = None, save: int = 2000) -> NDArray[np.float64]:
     """Saved instants, s, of a run until separation: ``save`` to a T*, evenly, up to ``longest``, s. By default that is
     8 T*, and before a soft wall :data:`ON_WALL` times :func:`time_on_wall`, but 100 T* at most, late instants being
-    fewer. Raises ``ValueError`` between two walls, or where supports bring the beam back: no separation is then the
-    last."""
+    fewer.
+
+    Raises ``ValueError`` between two walls, or where supports bring the beam back: no separation is then the last.
+    """
     if impact.supported and {impact.left_end, impact.right_end} != {"hinged", "free"}:
         raise InputError(
             f"left_end {impact.left_end!r}, right_end {impact.right_end!r}: supports bring the beam back, and no "
@@ -223,9 +227,11 @@ def method_type(path: str) -> type[Any]:
 
 
 def method_from_tables(path: str, tables: Mapping[str, Any], *, label: str | None = None) -> Any:
-    """The method of a path from its tables: a part for each field in its ``PARTS``, plain values for the others. A
-    part's table whose ``kind`` is "auto" is left out: the method then chooses. Raises :class:`InputError` naming key
-    and value for what the method does not know or take."""
+    """The method of a path from its tables: a part for each field in its ``PARTS``, plain values for the others.
+
+    A part's table whose ``kind`` is "auto" is left out: the method then chooses. Raises :class:`InputError` naming key
+    and value for what the method does not know or take.
+    """
     kind = method_type(path)
     registries: Mapping[str, Mapping[str, type]] = getattr(kind, "PARTS", {})
     defaults: Mapping[str, str] = getattr(kind, "DEFAULT_KINDS", {})

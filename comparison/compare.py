@@ -26,7 +26,8 @@ def compare_histories(a: ImpactHistory, b: ImpactHistory) -> dict[str, Any]:
 
     ``impact``, ``settings``, ``versions`` : what differs in each. ``end`` : numbers at the end of the common time
     (``time`` : of each run), first and second; ``peak_moment`` : the largest until then; ``largest_difference`` : of
-    each curve over the common time, over the first's largest value; of the gap over V₀t at the end, at its nodes.
+    each curve over the common time, over the first's largest value; of the gap over V₀t at the end, on the nodes
+    of the first.
     """
     end = min(float(a.time[-1]), float(b.time[-1]))
     times = a.time[(a.time >= b.time[0]) & (a.time <= end * (1.0 + 1e-9))]

@@ -1,4 +1,5 @@
-"""Doubts of a case, whatever is computed for it, and of a run by its energies at the end: the same at every door."""
+"""What a reader should know of a case itself, whatever is computed for it; and of a run by its energies at the end: one
+account for every door."""
 
 import math
 from collections.abc import Mapping
@@ -111,7 +112,8 @@ def _of_section(impact: Impact, section: Section) -> list[str]:
 
 
 def steep(history: ImpactHistory) -> list[str]:
-    """A sentence on slopes of the motion beyond the theory of small ones, as of a beam that turns and is pressed."""
+    """A sentence on slopes of the motion beyond the theory of small ones; they may grow where an axial force presses a
+    beam that turns."""
     name = "angle" if "angle" in history else "slope"
     if name not in history or _has_no_size(history.impact):
         return []
@@ -171,7 +173,8 @@ def loss_warnings(energy: Energies) -> list[str]:
 
 
 def yields(numbers: Mapping[str, Any], section: Section | None) -> bool | None:
-    """Whether the largest stress among ``numbers``, SI, is beyond the section's yield stress (``None``: not known)."""
+    """Whether the largest stress among ``numbers``, SI, is beyond the section's yield stress (``None`` where either
+    is not known)."""
     found, limit = with_bar(numbers.get("peak_stress", MISSING))[0], getattr(section, "yield_stress", None)
     return None if limit is None or found is None else found > limit
 

@@ -75,8 +75,10 @@ def methods_of(names: Sequence[str], assignments: Sequence[str] = (), case: Case
 
 
 def methods_from_file(*files: Path) -> list[Method]:
-    """The labelled methods of files, in order. Raises :class:`InputError` for anything but a list of methods, an
-    unknown path, part or value, a label given twice."""
+    """The labelled methods of files, in order.
+
+    Raises :class:`InputError` for anything but a list of methods, an unknown path, part or value, a label given twice.
+    """
     found = [method for file in files for method in _methods(file)]
     labels = [method.label for method in found]
     if twice := next((label for i, label in enumerate(labels) if label in labels[:i]), None):

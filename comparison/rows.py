@@ -210,9 +210,15 @@ def with_theory(question: MatchQuestion, leading: Any, estimate: Any) -> dict[st
 
 def about(question: MatchQuestion) -> dict[str, Any]:
     """The fields of a row that its question says."""
-    method = question.method
-    found: dict[str, Any] = {"label": method.label, "path": method.path, "settings": settings_of(method)}
-    return found | question.loads | {name: getattr(question, name) for name in ("kappa_over_nu", "refine", "wall")}
+    return {
+        "label": question.method.label,
+        "path": question.method.path,
+        "settings": settings_of(question.method),
+        "kappa_over_nu": question.kappa_over_nu,
+        **question.loads,
+        "refine": question.refine,
+        "wall": question.wall,
+    }
 
 
 def lost_row(question: MatchQuestion, reason: str, *, refused: bool = False) -> MatchRow:

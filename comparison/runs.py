@@ -1,6 +1,7 @@
 """Runs of a question about one beam, reduced to readings, kept, and made into numbers with bars.
 
-A reading is a dictionary of plain numbers by name: what a store keeps of a run. Without one nothing becomes text.
+A reading is a dictionary of plain numbers by name: what a store keeps of a run. Without a store nothing is turned
+into text.
 """
 
 import statistics
@@ -84,6 +85,7 @@ class Runs:
 
     @property
     def balance(self) -> Balance:
+        """Of the run itself."""
         return Balance(**self.run.reading["balance"])
 
     def part(self, of: Callable[[dict[str, Any]], dict[str, Any]]) -> Self:
@@ -101,9 +103,11 @@ def runs_of(
     jobs: int = 1,
     progress: Progress | None = None,
 ) -> Runs:
-    """Run ``question`` and its companions, or find them in ``store``. whole_history : also the history of the run
-    itself, which is then made anew. Raises ``ValueError`` for what the method refuses,
-    :class:`bent_beam.SimulationError` where the run cannot finish."""
+    """Run ``question`` and its companions, or find them in ``store``.
+
+    whole_history : also the history of the run itself, which is then made anew.
+    Raises ``ValueError`` for what the method refuses, :class:`bent_beam.SimulationError` where the run cannot finish.
+    """
     if reason := question.method.refuses(question.impact):
         raise InputError(reason)
     told = progress or (lambda _: None)

@@ -255,6 +255,7 @@ class SweepTable:
         return "\n".join([*lines, *(f"{text} ({self._which(names)})" for text, names in told.items())])
 
     def _which(self, names: Sequence[str]) -> str:
+        """Rows in words."""
         if 1 < len(names) == len(self.rows):
             return "all rows"
         return names[0] if len(names) == 1 else f"{len(names)} rows, the first at {names[0]}"

@@ -82,8 +82,10 @@ def contact_parameters(
     axial : axial force N/(μV₀²)/ε, tension positive. A bow free of stress under tension alone is α = −axial·κ.
 
     All arguments broadcast. Relative error below 1e-12 for κ/ν in 1e-12…1e12, of r₁ and λ₁ relative to
-    the largest contribution of α, ψ, χ and the axial force. α′+ψ that is 0 but for rounding counts as 0. ``ValueError``
-    for κ/ν not positive and finite, κ/ν < 1e-60, α, ψ, χ or the axial force not finite, any beyond 1e100.
+    the largest contribution of α, ψ, χ and the axial force. α′+ψ that is 0 but for rounding counts as 0.
+
+    Raises ``ValueError`` for κ/ν not positive and finite, κ/ν < 1e-60, α, ψ, χ or the axial force not finite, any
+    beyond 1e100.
 
     >>> from theory import contact_parameters
     >>> found = contact_parameters(0.5, alpha=4.0)

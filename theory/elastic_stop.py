@@ -73,8 +73,10 @@ class SwungBeam:
         return time, found
 
     def peak_force(self, end: float) -> tuple[float, float]:
-        """The largest force of the stop until ``end``, N, and when it acts, s. Raises ``ValueError`` where the force
-        still grows at ``end``: it is then not the largest."""
+        """The largest force of the stop until ``end``, N, and when it acts, s.
+
+        Raises ``ValueError`` where the force still grows at ``end``: it is then not the largest.
+        """
         time, found = self.tip(end)
         if found.argmax() == found.size - 1:
             raise ValueError(f"end must lie after the largest force, which still grows (got {end!r})")

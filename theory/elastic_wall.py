@@ -83,8 +83,8 @@ class PeakForce:
 
 
 def peak_force(kappa_over_nu: float, wall_damping_ratio: float = 0.0) -> PeakForce:
-    """f(κ/ν, ζ), in V₀√μ(EI k)^{1/4}, for κ/ν = K√(EI/μ)/V₀ from 1e-6 to 1e6 and ζ = c/(2√(kμ)) from 0 to 5;
-    ``ValueError`` for others."""
+    """f(κ/ν, ζ), in V₀√μ(EI k)^{1/4}, for κ/ν = K√(EI/μ)/V₀ from 1e-6 to 1e6 and ζ = c/(2√(kμ)) from 0 to 5.
+    Raises ``ValueError`` for others."""
     ratio = between("kappa_over_nu", kappa_over_nu, FLATTEST, SHARPEST)
     return _peak_force(ratio, between("wall_damping_ratio", wall_damping_ratio, 0.0, MOST_DAMPED))
 
@@ -140,7 +140,7 @@ def wall_history(
     width: float | None = None,
 ) -> WallHistory:
     """Force, zone, penetration and pressure until `end` (t_k) in `steps`, on a grid of `cells` over half the zone.
-    ``ValueError`` for a value outside its range.
+    Raises ``ValueError`` for a value outside its range.
 
     width : half length of the grid, ℓ_k; by default a little more than the zone of a beam that does not bend.
     """
@@ -200,6 +200,7 @@ def _loads(p: FloatArray, pressure: FloatArray, dx: float) -> tuple[FloatArray, 
     both = np.array([p, pressure])
     a, b = both[:, :-1], both[:, 1:]
     crossing = a / np.where(a == b, 1.0, a - b)
+    # the part of a cell with a load: both lines are above 0 there
     low = np.where((a <= 0.0) & (b > 0.0), crossing, 0.0).max(axis=0)
     high = np.maximum(low, np.where(b > 0.0, 1.0, np.where(a > 0.0, crossing, 0.0)).min(axis=0))
     start, slope = pressure[:-1], np.diff(pressure)

@@ -85,7 +85,8 @@ class Prediction:
         Later `times` still have a force, which may be further off; ``bentbeam predict`` leaves it out.
     valid_after : what spoils them before valid_from, one of the names in `theory.validity`; None: nothing does.
     limited_by : what ends it, one of these names.
-    yields : whether the stress at leading order without damping is beyond the yield stress; None if it is not known.
+    yields : whether the stress at leading order without damping is beyond the yield stress; None where
+        either is not known.
     peak_force : the largest force on the whole zone, N; None on a rigid wall, where it is infinite.
     wall : that with all about a wall that gives way. Everything else is that of a rigid wall, but for the half length,
         which is `WallPrediction.zone_offset` longer.
@@ -133,7 +134,7 @@ def predict(impact: Impact, times: Iterable[float] | float = (), *, section: Sec
     """Contact length, reaction, impulse, moment and stress of an impact, and until when they hold. Relative error 1e-11
     of the theory's own formulas; how far these are from the beam is what `valid_until` is about.
 
-    times : after the first contact, s, each ≥ 0. section : for stress and yield.
+    impact : the physical problem. times : after the first contact, s, each ≥ 0. section : for stress and yield.
 
     Raises ``ValueError`` for a beam as curved as its wall (K = K_w), one that rocks (rotation, first_touch), a wall or
     supports that the theory does not have, or a time that is negative, not finite or beyond 1e30 t*.

@@ -63,7 +63,8 @@ def sideways(
 ) -> Sideways:
     """Does the turning beam slide or stick, and what does the wall give it along the surface?
 
-    impact : in the plane normal to the wall. surface_speed : v_s ≥ 0 of the beam's surface along the wall, m/s.
+    impact : in the plane normal to the wall.
+    surface_speed : v_s ≥ 0 of the beam's surface along the wall, m/s.
     friction : μ_f > 0 of Coulomb's law, the same at rest and in motion. times : after the first contact, s.
     radius : of the section, m; for the torque impulse.
 

@@ -1,17 +1,24 @@
-r"""The leading order in closed form: a bending wave outside the contact zone, nothing inside (new; derived in
-docs/theory.md, sections 4 and 7).
+r"""The leading order in closed form: a bending wave outside the contact zone, nothing inside (new).
 
-At ε = 0 the impact is self-similar, η = τE(x) with x = ξ/√τ, and the wave that decays ahead of the front is
+At ε = 0 the impact is self-similar, η = τE(x) with x = ξ/√τ, and ∂²/∂τ² + ∂⁴/∂ξ⁴ factors into two Schrödinger
+operators. The wave that decays ahead of the front is therefore one iterated error function,
 
     E(x) = 1 − κx²/2,  |x| ≤ λ₀,        E(x) = Re[B i²erfc(z)],  z = e^{−iπ/4}|x|/2,  |x| ≥ λ₀,
 
-E, E′, E″ being continuous at the front, while E‴ jumps by √(2/π) r₀. This solves (2.6.37) without an integral. Impulse,
-momentum ∫η_τ dξ and energy ½∫(η_τ² + η_ξξ²) dξ are then alike: the contact moves with ν = 1 in the fast layer, at rest
-in the beam. Ahead of the front η_τ² + η_ξξ² = |B erfc(z)|²/16 does not oscillate.
+and at the front E, E′, E″ are continuous while E‴ jumps by √(2/π) r₀. This solves (2.6.37) without an integral. With it
 
-The largest bending moment is constant in time, M = V₀√(EIμ) m(κ/ν). In the zone the beam is straightened, so the wall
-bends it by κ. Ahead of it E‴ = √(2/π) r₀ cos((x² − λ₀²)/4), and the first extremum of E″, where x_p² = λ₀² + 2π, bends
-the beam further and is the largest. At one point, κ/ν ≥ 1, the largest is at the contact: 1.
+    ∫η_τ dξ = ∫R̃ dτ = 4√(2/π) r₀ √τ                                      momentum = impulse,
+    ½∫(η_τ² + η_ξξ²) dξ = ∫R̃ dτ                                        energy,
+
+the second because the contact moves with ν = 1 in the fast layer, at rest in the beam: the reactions do no work.
+Ahead of the front η_τ² + η_ξξ² = |B erfc(z)|²/16 does not oscillate.
+
+The largest bending moment is constant in time, M = V₀√(EIμ) m(κ/ν) (docs/theory.md, section 7):
+
+    E″(x) = Re[B (e^{−iπ/4}/2)² erfc z],   E‴(x) = √(2/π) r₀ cos((x² − λ₀²)/4),   E″ = −κ at x = λ₀.
+
+In the zone the beam is straightened, so the wall bends it by κ. Ahead of it the first extremum of E″, where
+x_p² = λ₀² + 2π, bends the beam further and is the largest. At one point, κ/ν ≥ 1, the largest is at the contact: 1.
 """
 
 from dataclasses import dataclass
@@ -142,8 +149,9 @@ class PeakMoment:
 
 
 def peak_moment(kappa_over_nu: ArrayLike) -> PeakMoment:
-    """Largest bending moments at leading order, for κ/ν > 0; relative error below 1e-12. ``ValueError`` as of
-    `theory.contact_parameters`.
+    """Largest bending moments at leading order, for κ/ν > 0; relative error below 1e-12.
+
+    Raises ``ValueError`` as `theory.contact_parameters` does.
 
     >>> from theory import peak_moment
     >>> round(float(peak_moment(0.5).largest), 5)  # over V₀√(EIμ)

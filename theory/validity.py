@@ -1,17 +1,25 @@
-r"""Until when the theory of the first instants holds for a real beam: every limit is a formula, and docs/theory.md,
-section 9, has them all and derives them. The theory's numbers carry such a range, in which they are right to 2 %, in
-place of an error bar. ℓ is the half length, d the distance of the contact's end from the beam's.
+r"""Until when the theory of the first instants holds for a real beam. Every limit is a formula, derived in
+docs/theory.md, section 9; ℓ is the half length, d the distance of the contact's end from the beam's. The theory's
+numbers carry such a range, in which they are right to 2 %, in place of an error bar.
 
-- **ends**: waves from the contact come back, and change the impulse by √2 ct/d² at most. They swing the momentary force
-  by 2√2 e^{−ηℓ⁴/2c²t³} of itself, and the one that is told, a mean over a tenth of the time before and after, by
-  √2 ct/d² · 20. Loads make the ends send waves of their own: with q₀ they swing the force by √2 |q₀|cℓ²/(r₀V₀), with an
-  axial force along x by 4√2 NKt/(μV₀r₀), and the impulse by 2ct/ℓ² of as much.
-- **loads**: the second order (`theory.second_order`) over the first, and the first over the leading one.
-- **damping**: one point has a closed form (`theory.damped_point`), a zone only as long as it is one point.
-- **slope**: an arch is lower than its parabola by θ²/12.
-- **shear, wall**: both spoil the beginning (`theory.shear`, `theory.wall_prediction`). Without damping shear waves
-  swing the reaction for longer: by 9 % at `valid_from`, by 2 % twice as late.
-- **hysteretic loss**, and a stress of the leading order beyond the yield stress (**section**): never valid.
+- **ends**: waves that the contact sends and the ends send back change the impulse by √2 ct/d² at most; the limit is
+  d = `DISTANCE` √(ct), of a flat contact the time at which it has covered a third of ℓ (`FLAT`).
+  Short ones swing the momentary force by 2√2 of itself from the first instant on, damped by e^{−ηℓ⁴/2c²t³}. So the
+  force that is told is a mean over a tenth of the time before and after, which they swing by √2 ct/d² · 20. It holds
+  until both swings are beyond `SWING` (`force_until`).
+  Loads make the ends send waves of their own: with q₀ they swing the force by √2 |q₀|cℓ²/(r₀V₀), with an axial force
+  along x by 4√2 NKt/(μV₀r₀), and the impulse by 2ct/ℓ² of as much. Where the force would swing by more than 2 %, the
+  limit is d = 2 `DISTANCE` √(ct), or earlier, when the impulse swings by 2 %, but not before the force does.
+- **loads**: the second order (`theory.second_order`) over what first order predicts, and the first order over the
+  leading one, which has to be small. One point spreads when the loads have taken the curvature κ − ν of its gap away.
+- **damping**: one point has a closed form (`theory.damped_point`), under an axial force up to its share in r₁. A zone
+  has one as long as it is one point, until T_p η.
+- **hysteretic loss**: a modulus that grows with the frequency leaves no self-similar contact; never valid.
+- **slope**: an arch is lower than its parabola by θ²/12. This is about the slope that the impact adds.
+- **shear**: a beam that shears has formulas of its own (`theory.shear`), after some times t_s = √(EIμ)/(κ_sGA). Shear
+  waves swing the reaction of a beam without damping longer: by 9 % at `valid_from`, by 2 % twice as late.
+- **wall**: one that gives way counts as rigid after many times √(μ/k) (`theory.wall_prediction`).
+- **section**: the leading order's stress is beyond the yield stress from the first instant on.
 """
 
 import math
@@ -33,7 +41,7 @@ TOLERANCE = 0.02
 DISTANCE = 10.0
 #: What waves that come back once may add to the force; those that come back again add less than as much.
 SWING = 0.5 * TOLERANCE
-#: ℓ over the half length of a flat contact, at which waves of its front are back from the ends.
+#: Half length of the beam over that of a flat contact, at which waves of its front are back from the ends.
 FLAT = 3.0
 #: First order over leading order, beyond which an expansion says nothing.
 SMALL_CHANGE = 0.3
@@ -75,8 +83,9 @@ class Validity:
 def validity(impact: Impact, solved: ContactParameters, *, rigid_from: float = 0.0, yields: bool = False) -> Validity:
     """The interval in which half length and impulse are within 2 % of those of the beam, and that of the force.
 
-    solved : contact parameters with ε = 1 (α stands for εα and so on). rigid_from : time after which a wall that gives
-        way counts as rigid, s. yields : whether the leading order's bending stress is beyond the yield stress.
+    impact : the physical problem. solved : its contact parameters with ε = 1 (α stands for εα and so on).
+    rigid_from : time after which a wall that gives way counts as rigid, s (`theory.wall_prediction`).
+    yields : whether the leading order's bending stress is beyond the material's yield stress.
     """
     if yields and rigid_from == 0.0:
         return Validity(0.0, 0.0, SECTION)
@@ -100,7 +109,8 @@ def validity(impact: Impact, solved: ContactParameters, *, rigid_from: float = 0
 
 
 def _until_swings(impact: Impact, solved: ContactParameters) -> float:
-    """Time, s, at which waves from the ends swing both the force's mean and, damped, the force itself by `SWING`."""
+    """Time, s, from which on waves from the ends swing both the force and its mean by more than `SWING`. Without
+    damping they swing the force from the first instant on."""
     whole = 20.0 * math.sqrt(2.0) / SWING  # d²/ct
     undamped = (math.sqrt(whole) + solved.lambda0) ** -2.0  # T*
     decay = 2.0 * math.log(2.0 * math.sqrt(2.0) / SWING)  # ηℓ⁴/c²t³
@@ -109,8 +119,7 @@ def _until_swings(impact: Impact, solved: ContactParameters) -> float:
 
 
 def _until_ends(impact: Impact, solved: ContactParameters) -> float:
-    """τ at which d is `DISTANCE` √(ct). Where loads would swing the force by more than 2 %: twice that distance, or
-    earlier, when the impulse swings by 2 %, but not before the force does."""
+    """τ at which the contact's end is `DISTANCE` √(ct) from the beam's, or earlier where q₀ sends waves from there."""
     slow = impact.slow_time_scale / impact.time_scale
     time = max(DISTANCE + solved.lambda0, FLAT * solved.lambda0) ** -2.0  # T*
     quartic = abs(impact.fourth_derivative) * impact.half_length**4 / (impact.velocity * impact.slow_time_scale)

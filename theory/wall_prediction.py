@@ -38,7 +38,7 @@ class WallPrediction:
     The numbers of the largest force are None where κ/ν or ζ is beyond the range of `theory.elastic_wall`. They are
     those of an infinite undamped beam without loads; `spoiled_by` names what makes this one another.
 
-    time_scale, length_scale, damping_ratio : t_k, s, ℓ_k, m, and ζ.
+    time_scale, length_scale, damping_ratio : t_k (s), ℓ_k (m) and ζ.
     peak_force, peak_force_error, peak_force_time : the largest force on the whole zone, N, and when it acts, s.
     half_contact_length : of the zone then, m.
     penetration, pressure : the largest anywhere, m and N/m; the penetration None where something changes it, and not

@@ -118,8 +118,11 @@ def shipped_adapters() -> dict[str, Adapter]:
 
 
 def chosen_adapters(names: Sequence[str] = (), own: Sequence[Path] = ()) -> list[Adapter]:
-    """Shipped adapters by name (all when neither is given), then one's own files. Raises :class:`InputError` for a name
-    that none has, a file that is not there, and two of one name: results are kept in folders of these names."""
+    """Shipped adapters by name (all when neither is given), then one's own files.
+
+    Raises :class:`InputError` for a name that none has, a file that is not there, and two of one name: results are kept
+    in folders of these names.
+    """
     shipped = shipped_adapters()
     for name in names:
         if name not in shipped:
@@ -139,8 +142,10 @@ def chosen_adapters(names: Sequence[str] = (), own: Sequence[Path] = ()) -> list
 
 
 def install(adapter: Adapter) -> str:
-    """Make the environment of an adapter from its pinned versions; returns a line of text about it. Raises
-    :class:`InputError` when the packages cannot be had."""
+    """Make the environment of an adapter from its pinned versions; returns a line of text about it.
+
+    Raises :class:`InputError` when the packages cannot be had.
+    """
     name, folder = adapter.name, adapter.folder
     if adapter.debian:
         return f"{name}: apt-get install {adapter.debian} (a package of the system's Python, not installed from here)"

@@ -74,6 +74,7 @@ class Row:
 
     @property
     def table(self) -> str:
+        """The one that it stands in."""
         return "self-declared" if self.declared_because else "run here"
 
     @property
@@ -106,8 +107,10 @@ def campaign(
     seed: int | None = None,
     progress: Callable[[int, int], None] = lambda done, total: None,
 ) -> list[Row]:
-    """Do the runs that are missing, and score all. A first-order problem brings its base along. seed : of the drawn
-    problems that are run besides, one like each of ``problems``; ``None``: none."""
+    """Do the runs that are missing, and score all. A first-order problem brings its base along.
+
+    seed : of the drawn problems that are run besides, one like each of ``problems``; ``None``: none.
+    """
     limits = limits or Limits()
     drawn_ids = _with_bases(drawn(problems, seed)) if seed is not None else []
     asked = [problem(name) for name in [*_with_bases(problems), *drawn_ids]]

@@ -19,8 +19,11 @@ UNKNOWN = {
 
 
 def result_from_history(history: ImpactHistory, asked: Problem | None = None) -> Result:
-    """A history as a result. asked : the problem that it answers; ``None`` reads it off the history's impact. Raises
-    :class:`ResultError` for an impact that is none of the infinite beam's: no exact solution knows of it."""
+    """A history as a result.
+
+    asked : the problem that it answers; ``None`` reads it off the history's impact.
+    Raises :class:`ResultError` for an impact that is none of the infinite beam's: no exact solution knows of it.
+    """
     impact = history.impact
     asked = asked or _problem_of(history)
     length, time = impact.length_scale, impact.time_scale

@@ -23,8 +23,10 @@ __all__ = ["resolution_ignored", "score"]
 
 
 def score(result: Result, base: Result | None = None) -> Score:
-    """Score one result. ``base``: the same code's result of the problem without loads, for λ₁ and r₁. Raises
-    :class:`ResultError` when ``base`` does not belong to the result's problem."""
+    """Score one result. ``base``: the same code's result of the problem without loads, for λ₁ and r₁.
+
+    Raises :class:`ResultError` when ``base`` does not belong to the result's problem.
+    """
     asked = result.problem
     raw = result.node_impulse is not None and result.snap_gap is not None
     found = Score(asked.id, result.stated, metadata=result.metadata, raw=raw)

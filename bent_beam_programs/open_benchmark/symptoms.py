@@ -154,7 +154,8 @@ def _lost(result: Result, of: str, series: Array, deficit: Callable[..., Array],
 
 def _penetration(result: Result, _: float = 0.0) -> Seen:
     deep = [(float(-gap.min()) / when, _at(x[int(gap.argmin())], when)) for when, x, gap in result.snapshots()]
-    return max([(max(figure, 0.0), where) for figure, where in deep], default=None)
+    figure, where = max(deep, default=(0.0, ""))
+    return (max(figure, 0.0), where) if deep else None
 
 
 def _lift(result: Result, lambda0: float) -> Seen:

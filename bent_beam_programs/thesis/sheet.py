@@ -64,8 +64,11 @@ class Sheet:
         legend_size: float | None = None,
         **kwargs: Any,
     ) -> Iterator[tuple[Figure, Any]]:
-        """``style.figure``, a page wide where it has columns, and kept for :meth:`save`. Several axes get ``letters``,
-        row by row, also in the CSV, and ``texts`` beside them. legend : columns of one legend below (0: none)."""
+        """``style.figure``, a page wide where it has columns, and kept for :meth:`save`.
+
+        Several axes get ``letters``, row by row, also in the CSV, and ``texts`` beside them. legend : columns of one
+        legend below (0: none).
+        """
         width = style.PAGE if columns > 1 else style.COLUMN
         with style.figure(rows, columns, **{"width": width} | kwargs) as (self.figure_, axes):
             yield self.figure_, axes
@@ -127,8 +130,10 @@ class Sheet:
         return stream.getvalue()
 
     def save(self, out: Path, name: str, formats: Sequence[str] = ("png",)) -> list[Path]:
-        """Write picture(s), page and ``name.csv``; returns the files, the CSV last. Raises ``ValueError`` where nothing
-        was drawn."""
+        """Write picture(s), page and ``name.csv``; returns the files, the CSV last.
+
+        Raises ``ValueError`` where nothing was drawn.
+        """
         with matplotlib.rc_context(style.RC):
             files = [] if self.figure_ is None else style.save(self.figure_, out, name, formats)
         if self.page:
@@ -168,9 +173,11 @@ ITEMS: dict[str, Item] = {}
 
 
 def item(name: str, *, beside: str = "", **parts: str) -> Callable[[Draw], Draw]:
-    """Decorator that registers a drawing function under its number. beside : the module whose items the same process
-    draws, for it shares their runs (default: its own). The first line of its docstring is the title, the rest the
-    caption, in which {part} stands for a text of ``parts``."""
+    """Decorator that registers a drawing function under its number.
+
+    beside : the module whose items the same process draws, for it shares their runs (default: its own).
+    The first line of its docstring is the title, the rest the caption, in which {part} stands for a text of ``parts``.
+    """
 
     def register(draw: Draw) -> Draw:
         title, _, caption = (draw.__doc__ or "").partition("\n\n")

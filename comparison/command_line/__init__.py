@@ -1,7 +1,8 @@
 """The command line.
 
 Linear algebra gets one thread, unless the user says otherwise: matrices are small, and where two processes share two
-cores, a second thread in each makes both a third to two thirds slower. Here, before NumPy is imported.
+cores, a second thread in each makes both a third to two thirds slower. This stands here because it must
+happen before NumPy is imported.
 """
 
 import os

@@ -17,11 +17,13 @@ from bent_beam.errors import InputError
 
 
 def names_of(where: str, *first: str) -> Callable[[str], list[str]]:
-    """Completion by ``first`` and the names in ``module:object``, or that it returns; imported when a shell asks."""
+    """Completion of an option: ``first``, then the names in ``module:object``, which is called if it is a function. It
+    is imported only when a shell asks."""
 
     def complete(incomplete: str) -> list[str]:
         found = resolve_name(where)
-        return [name for name in (*first, *(found() if callable(found) else found)) if name.startswith(incomplete)]
+        known = sorted(found() if callable(found) else found)
+        return [name for name in (*first, *known) if name.startswith(incomplete)]
 
     return complete
 
@@ -86,7 +88,8 @@ Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace existing f
 
 
 def end_of_rows(rows: Sequence[Any]) -> None:
-    """A line on standard error for each row that failed unexpectedly; exit code 3 for one, 2 where all were refused."""
+    """A line on standard error for each row that failed unexpectedly; leave with exit code 3 where one did, 2 where
+    input refused every row."""
     from comparison.rows import failures
 
     lost = failures(rows)
@@ -147,7 +150,8 @@ def printable(text: str) -> str:
 
 
 def check_out(out: Path | None, overwrite: bool, suffix: str = "") -> None:
-    """``InputError`` when the file cannot be written, exists, or has another suffix than ``suffix`` (``""``: any)."""
+    """``InputError`` when the file cannot be written, is there already, or ends in another suffix than what it holds
+    has (``""``: any)."""
     from comparison.store import check_writable
 
     if out is None and overwrite:

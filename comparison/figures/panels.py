@@ -178,8 +178,10 @@ def _telling(history: ImpactHistory, end: float) -> Array:
 
 def draw_shapes(axis: Any, history: ImpactHistory, end: float, reach: float | None) -> None:
     """The beam above its wall at :func:`_telling` times until ``end``, s, the first on top: to scale along, heights by
-    a factor that is said. reach : half width that is shown, m; ``None``: the whole beam. Lays the figure out, so that
-    everything else must be on it."""
+    a factor that is said. reach : half width that is shown, m; ``None``: the whole beam.
+
+    Lays the figure out, so that everything else must be on it.
+    """
     edge = min(reach or np.inf, 0.5 * history.impact.length)
     shown = []
     for t in _telling(history, end):

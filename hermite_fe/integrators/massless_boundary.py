@@ -180,7 +180,7 @@ def step(problem: Problem, state: State, memory: MasslessMemory, t: float, h: fl
         if not memory.inner[i]:
             mean_v[i] = memory.dq[i] / h
         v[i] = mean_v[i] + 0.5 * h * a[i]  # a is 0 where there is no mass
-    note_complementarity(problem.rows, memory.conditions, memory.dq, 1.0, 1.0, state.worst)  # p is λ here, N
+    note_complementarity(problem.rows, memory.conditions, memory.dq, 1.0, state.worst)  # p is λ here, N
     for j in range(p.size):
         now = p[j]
         p[j] = 0.5 * h * (memory.push[j] + now)

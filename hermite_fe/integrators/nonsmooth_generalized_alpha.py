@@ -81,7 +81,7 @@ def smooth_motion(problem: Problem, state: State, memory: AlphaMemory, t: float,
     forces_at(problem.matrices, t + h, state.q, state.v, vectors.b, vectors.scratch)
     status = solve_constrained(problem.solver, problem.rows, conditions, vectors.b, vectors.x)
     if status == SOLVED:
-        note_complementarity(problem.rows, conditions, vectors.x, h, h, state.worst)
+        note_complementarity(problem.rows, conditions, vectors.x, h, state.worst)
         alpha.correct(state, motion, h)
         for j in range(conditions.p.size):
             alpha.take_reaction(scheme, reactions, h, j, conditions.p[j])
@@ -101,7 +101,7 @@ def velocity_jump(problem: Problem, state: State, memory: AlphaMemory) -> int:
     if status == SOLVED:
         copy(velocity.p, memory.motion.reactions.impulse)
         add_impulses(state, velocity)
-        note_complementarity(rows, velocity, W, 1.0, 1.0, state.worst)
+        note_complementarity(rows, velocity, W, 1.0, state.worst)
         multiply(matrices.K, W, vectors.force)
         multiply(matrices.C, W, vectors.scratch)
         for i in range(v.size):
@@ -179,7 +179,7 @@ def position_jump(problem: Problem, state: State, memory: AlphaMemory, h: float)
     b[:] = 0.0
     status = solve_constrained(solver, rows, position, b, U)
     copy(position.closed, state.closed)
-    note_complementarity(rows, position, U, 1.0 / h, 1.0 / h, state.worst)
+    note_complementarity(rows, position, U, 1.0 / h, state.worst)
     multiply(matrices.K, U, force)
     for i in range(U.size):
         q[i] += U[i]

@@ -127,7 +127,7 @@ def take_steps(problem: Problem, state: State, memory: Memory, times: Array, fir
         if status == SOLVED:
             copy(conditions.closed, state.closed)
             add_impulses(state, conditions)
-            note_complementarity(rows, conditions, vectors.dv, 1.0, 1.0, state.worst)
+            note_complementarity(rows, conditions, vectors.dv, 1.0, state.worst)
             status = finish_step(problem, state, conditions.p, vectors, h, theta)
         if status != SOLVED:
             return status, k

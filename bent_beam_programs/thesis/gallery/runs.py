@@ -35,7 +35,9 @@ def every_step(
     impact: Impact, end_time: float, method: HermiteFE, save: Sequence[float] | Array
 ) -> tuple[ImpactHistory, Steps]:
     """Run to ``end_time``, s, step by step, on half the beam: its history at the instants ``save``, s, and all steps.
-    Raises ``ArithmeticError`` for a step without a solution."""
+
+    Raises ``ArithmeticError`` for a step without a solution.
+    """
     parts = {name: getattr(method, name) for name in ("mesh", "integrator", "contact", "far_field", "mass")}
     chosen = resolution.choose(impact, end_time, resolution.Composition(**parts))
     model = beam_model(impact, chosen.nodes, chosen.contact, chosen.far_field, full=False, mass=chosen.mass)

@@ -42,9 +42,11 @@ def run_study(
     jobs: int = 1,
     progress: Count | None = None,
 ) -> StudyResult:
-    """Run the study ``name`` on ``case``; with ``out`` its picture, data and result are written there. methods : whose
-    settings are varied in place of the thesis's, each with elements and steps ``refines`` times finer. Raises
-    ``ValueError`` for an unknown name or a flat beam."""
+    """Run the study ``name`` on ``case``; with ``out`` its picture, data and result are written there.
+
+    methods : whose settings are varied in place of the thesis's, each with elements and steps ``refines`` times finer.
+    Raises ``ValueError`` for an unknown name or a flat beam.
+    """
     if name not in STUDIES:
         raise ValueError(f"study {name!r} is not known (known: {', '.join(STUDIES)})")
     if case.impact.curvature <= 0.0:

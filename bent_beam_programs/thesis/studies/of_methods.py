@@ -64,8 +64,10 @@ class MethodOnCase:
         return dict(self.method.PARTS[name])
 
     def part(self, name: str, *, filled: bool = False) -> Any:
-        """A part as the method has it; where it is left open, of the kind that is chosen for the case. filled : with
-        the part's own open fields chosen too. Raises :class:`NotVaried` where there is none."""
+        """A part as the method has it; where it is left open, of the kind that is chosen for the case.
+
+        filled : with the part's own open fields chosen too. Raises :class:`NotVaried` where there is none.
+        """
         self.kinds(name)
         own = getattr(self.method, name)
         if own is not None and not filled:
