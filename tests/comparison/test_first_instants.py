@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from benchmarks.figures.moment import FOLDER, MeasuredMoment, measure_moment
+from benchmarks.figures.moment import FOLDER, KAPPAS, PATHS, MeasuredMoment, measure_moment
 from bent_beam import Impact, ImpactHistory, SimulationError
 from bent_beam.measure.moments import first_front
 from bent_beam.measure.reduction import peak_moment
@@ -62,6 +62,8 @@ def numbers(impact: Impact, until: float, path: str = "hermite", **more: object)
 
 def test_moments_of_two_paths_stored_and_of_a_quick_run_are_within_half_a_percent_of_theory() -> None:
     points = [MeasuredMoment(**p) for p in json.loads((FOLDER / "peak-moment.json").read_text())["points"]]
+    assert {p.kappa_over_nu for p in points} == set(KAPPAS)
+    assert len({p.label for p in points}) == len(PATHS)
     for p in points:
         assert p.theory == pytest.approx(largest_moment(p.kappa_over_nu).largest)
         assert abs(p.value / p.theory - 1.0) < 0.005, p

@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+import xarray
 from called import answered, command
 from histories import rod
 
@@ -32,6 +33,8 @@ def test_rows_are_the_numbers_of_bounce_and_are_kept(case, tmp_path, monkeypatch
         of_bounce = whole["si"].get(name) or whole.get(name)
         both = [number and (number["value"], number["error"]) for number in (row[name], of_bounce)]
         assert both[0] == both[1], name
+    grid = xarray.open_dataset(tmp_path / "out" / "sweep.nc", engine="h5netcdf")
+    assert float(grid["restitution"].sel(row["varied"])) == row["restitution"]["value"]
     lines = (tmp_path / "out" / "sweep.csv").read_text().splitlines()
     assert len(lines) == 5 and lines[0].startswith("impact.velocity,beam.damping_ratio,kappa_over_nu")
     assert {file.suffix for file in (tmp_path / "out").iterdir()} == {".csv", ".json", ".nc", ".png"}

@@ -169,17 +169,20 @@ def test_each_loss_is_booked_and_a_false_velocity_is_missing_from_the_budget(mak
     assert account(fast.sums()) - start == pytest.approx(brought, rel=1e-3)
 
 
+@pytest.mark.parametrize(
+    ("kappa", "step"), [(0.1, 1e-3), *(pytest.param(*p, marks=pytest.mark.verify) for p in ((0.5, 2e-4), (1.5, 1e-3)))]
+)
 @pytest.mark.parametrize("radius", [0.0, 1.0])
 @pytest.mark.parametrize("levels", ["velocity", "position_velocity", "position_velocity_acceleration"])
-def test_the_wall_brings_no_energy(levels: str, radius: float) -> None:
+def test_the_wall_brings_no_energy(levels: str, radius: float, step: float, kappa: float) -> None:
     """To an undamped beam whose shortest waves the steps do not resolve; no loss in impacts is below zero."""
-    scheme = NonsmoothGeneralizedAlpha(1e-3, spectral_radius=radius, levels=levels)
+    scheme = NonsmoothGeneralizedAlpha(step, spectral_radius=radius, levels=levels)
     parts = {"mesh": UniformMesh(0.02), "contact": NodeContact(), "far_field": GridViscosity(viscosity=0.0)}
-    history = simulate(Impact.dimensionless(0.1, length=2.0), end_time=0.3, integrator=scheme, save=100, **parts)
+    history = simulate(Impact.dimensionless(kappa, length=2.0), end_time=0.3, integrator=scheme, save=100, **parts)
     energy = history.array("kinetic_energy") + history.array("strain_energy")
     assert energy.max() <= energy[0] * (1.0 + 1e-9)
     assert np.diff(history.array("loss_impact")).min() > -1e-2 * energy[0]
-    assert history.array("loss_impact")[-1] > 0.05 * energy[0]
+    assert history.array("loss_impact")[-1] > 0.05 * energy[0] * (kappa < 1.0)
 
 
 def stepper(integrator: Integrator, half_length: float, nodes: int) -> Stepper:

@@ -101,6 +101,10 @@ def attribute(name, value):
     return lambda data: data.assign_attrs({name: value if isinstance(value, str | float) else json.dumps(value)})
 
 
+def without(name):
+    return lambda data: data.drop_attrs(deep=False).assign_attrs({k: v for k, v in data.attrs.items() if k != name})
+
+
 def impact(**changes):
     return lambda data: data.assign_attrs(impact=json.dumps(json.loads(data.attrs["impact"]) | changes))
 
@@ -117,7 +121,8 @@ MISREAD = {
     "a beam longer than itself": changed("x", lambda v: 1e4 * v),
     "the half said to be the full beam": attribute("symmetry", "full"),
     "a symmetry that is none": attribute("symmetry", "none"),
-    "no attributes": lambda data: data.drop_attrs(deep=False),
+    "no format": without("format"),
+    "no settings": without("settings"),
     "nesting without end": attribute("settings", "[" * 100_000),
     "an escape in a setting's name": attribute("settings", {"\x9b31m": 1}),
     "writing turned round": attribute("settings", {"a": "\u202egnp.exe"}),

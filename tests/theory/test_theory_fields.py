@@ -40,7 +40,7 @@ def test_leading_order_and_one_point_at_every_order_touch_to_round_off_and_a_det
     assert np.all(detached.complementarity_residual([0.0, 0.3, 0.6], 0.3) < -1e-4)
 
 
-@pytest.mark.parametrize("ratio", [1 / 1600, pytest.param(0.999, marks=pytest.mark.verify), 3.0])
+@pytest.mark.parametrize("ratio", [1 / 1600, 0.5, pytest.param(0.999, marks=pytest.mark.verify), 3.0])
 def test_convolution_equals_the_closed_form_everywhere(ratio: float) -> None:
     parameters = contact_parameters(ratio)
     wave, tau = SelfSimilarWave(parameters), 0.7

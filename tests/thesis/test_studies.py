@@ -108,6 +108,9 @@ def test_each_parameter_has_the_effect_that_the_thesis_and_theory_give_it() -> N
     fine = [rows[f"h = {h} s"] for h in ("5·10⁻⁸", "2.5·10⁻⁸", "10⁻⁸")]
     lifts = [row["lift"] for row in fine]
     assert max(lifts) < 1.01 * min(lifts) and all(45.0 < row["reaction_error"] < 55.0 for row in fine)  # lumped middles
+    for name, error, lift in (("Hermite", 0.2, 5e-3), ("Self-similar", 0.01, 1e-4)):
+        ours = rows[name]
+        assert abs(ours["reaction_error"]) < error and abs(ours["contact_length_error"]) < error and ours["lift"] < lift
     errors = [abs(row["reaction_error"]) for label, row in stored_rows("mesh").items() if "e = 1.25" in label]
     assert errors == sorted(errors, reverse=True) and errors[0] > 30.0 and errors[-1] < 0.2 * errors[0]
     rows = stored_rows("restitution")
