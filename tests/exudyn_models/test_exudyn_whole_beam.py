@@ -258,7 +258,7 @@ def drawn() -> list[tuple[float, float, float, float]]:
             length = (0.02, 0.08)[(k + j) % 2]
             spread = 2.0 ** random.uniform(-0.2, 0.2, 3)
             cases.append((kappa * spread[0], damping * spread[1], length * spread[2], random.uniform(0.2, 0.33)))
-    return cases
+    return [*cases, (0.5, 3e-3, 0.002, G)]  # the last: no element resolves the shear length
 
 
 @pytest.mark.verify
@@ -266,8 +266,12 @@ def drawn() -> list[tuple[float, float, float, float]]:
 def test_drawn_beams_agree_with_the_hermite_path_and_the_explicit_code_within_bars(kappa, damping, length, g) -> None:
     impact = Impact.whole_beam(kappa, relative_damping=damping, shear_length=length, shear_ratio=g)
     exudyn, hermite = (bounce(impact, method) for method in (ExudynModel(), HermiteFE()))
-    fine, half = (leapfrog.whole_impact(kappa, damping, length, g, n, 1.3) for n in (200, 100))
-    for name, explicit, coarser in zip(("restitution", "impulse", "peak_moment"), fine, half):
+    names = ("restitution", "impulse", "peak_moment")
+    for name in names:
         ours, theirs = exudyn.numbers[name], hermite.numbers[name]
         assert abs(ours.value - theirs.value) <= ours.bar + theirs.bar, name
-        assert abs(ours.value - explicit) <= ours.bar + 2.0 * abs(explicit - coarser), name
+    if length > 0.01:
+        fine, half = (leapfrog.whole_impact(kappa, damping, length, g, n, 1.3) for n in (200, 100))
+        for name, explicit, coarser in zip(names, fine, half):
+            ours = exudyn.numbers[name]
+            assert abs(ours.value - explicit) <= ours.bar + 2.0 * abs(explicit - coarser), name
