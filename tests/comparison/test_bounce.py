@@ -240,15 +240,15 @@ def test_a_softer_wall_pushes_for_half_a_period_however_long_and_a_force_that_st
     bar = Impact(1.0, 1.0, 2.0, 0.0, 1.0, damping=1e-2)
     bowed = bar.replace(curvature=1e3, wall_stiffness=0.05)  # longer in it than a straight bar, as Hertz has it
     few = HermiteFE(mesh=UniformMesh(0.1))
-    soft = bounce(bar.replace(wall_stiffness=0.05), few, save=500)
+    soft = bounce(bar.replace(wall_stiffness=0.03), few, save=500)
     quick = HermiteFE(mesh=UniformMesh(0.1), integrator=Midpoint(0.05, 0.0))
     softer, leaving = (bounce(one, quick) for one in (bar.replace(wall_stiffness=1e-4), bowed))
-    assert soft.numbers["last_contact"].known == pytest.approx(math.pi / math.sqrt(0.05), rel=1e-3)
-    assert soft.numbers["peak_force"].known == pytest.approx(2.0 * math.sqrt(0.05), rel=1e-4)
-    assert len(follow_hits(soft.impact, few, 2, first=soft.history)) == 1
+    assert soft.numbers["last_contact"].known == pytest.approx(math.pi / math.sqrt(0.03), rel=1e-3)
+    assert soft.numbers["peak_force"].known == pytest.approx(2.0 * math.sqrt(0.03), rel=1e-4)
+    assert len(follow_hits(soft.impact, few, 2, first=soft.history)) == 1, "longer than ten periods"
     assert leaving.left and leaving.numbers["last_contact"].known == pytest.approx(time_on_wall(bowed), rel=0.02)
     assert not softer.numbers["peak_force"].measured and not softer.numbers["restitution"].measured
     assert any("no largest force on the wall: it still rises" in warning for warning in softer.warnings)
     assert softer.to_dict()["peak_force_time"] is None
     ends = [separation_times(impact)[-1] for impact in (bar, soft.impact, softer.impact)]
-    assert ends == pytest.approx([8.0, 3.0 * math.pi / math.sqrt(0.05), 100.0], abs=6e-3), "it is given up then"
+    assert ends == pytest.approx([8.0, 3.0 * math.pi / math.sqrt(0.03), 100.0], abs=6e-3), "it is given up then"
