@@ -70,7 +70,8 @@ class PeakForce:
 
     error : what Richardson's rule adds, and how far it is from the same rule on grids twice as coarse.
     time, half_contact_length : when the force is largest, to 1 % and 2 %.
-    penetration, pressure : the largest at any place and time; relative error 1e-2. penetration_time : when, to 1 %.
+    penetration, pressure : the largest at any place and time; relative error 1e-2.
+    penetration_time : when, to 1 %.
     """
 
     value: float

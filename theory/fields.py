@@ -53,7 +53,8 @@ class FieldValues:
 class ImpactFields:
     """The solution of the fast layer at a given ε, dimensionless.
 
-    parameters : contact parameters of one impact (scalars). epsilon : ε ≥ 0; 0 for the leading order.
+    parameters : contact parameters of one impact (scalars).
+    epsilon : ε ≥ 0; 0 for the leading order.
     tolerance : largest absolute error of η/τ, η_ξ/√τ, η_ξξ and η_τ that the quadrature aims at, but for the rounding of
         the phase, 1e-15 r₀ max(λ₀, |ξ|/√τ).
 

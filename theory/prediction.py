@@ -134,7 +134,9 @@ def predict(impact: Impact, times: Iterable[float] | float = (), *, section: Sec
     """Contact length, reaction, impulse, moment and stress of an impact, and until when they hold. Relative error 1e-11
     of the theory's own formulas; how far these are from the beam is what `valid_until` is about.
 
-    impact : the physical problem. times : after the first contact, s, each ≥ 0. section : for stress and yield.
+    impact : the physical problem.
+    times : after the first contact, s, each ≥ 0.
+    section : for stress and yield.
 
     Raises ``ValueError`` for a beam as curved as its wall (K = K_w), one that rocks (rotation, first_touch), a wall or
     supports that the theory does not have, or a time that is negative, not finite or beyond 1e30 t*.

@@ -26,7 +26,8 @@ from theory.prediction import Prediction, predict
 class SidewaysAtTime:
     """Along the wall at one time, SI units; None where `Prediction` has none.
 
-    push : force of the wall on the beam along the surface's velocity, N. push_impulse : its time integral, N s.
+    push : force of the wall on the beam along the surface's velocity, N.
+    push_impulse : its time integral, N s.
     torque_impulse : that times the radius, N m s, what brakes the spin; None without a radius.
     valid : the impact's prediction holds, and a beam that slides has not stuck yet.
     """
@@ -65,7 +66,8 @@ def sideways(
 
     impact : in the plane normal to the wall.
     surface_speed : v_s ≥ 0 of the beam's surface along the wall, m/s.
-    friction : μ_f > 0 of Coulomb's law, the same at rest and in motion. times : after the first contact, s.
+    friction : μ_f > 0 of Coulomb's law, the same at rest and in motion.
+    times : after the first contact, s.
     radius : of the section, m; for the torque impulse.
 
     Raises ``ValueError`` for an argument out of its range, or an impact that `theory.predict` refuses.

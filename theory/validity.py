@@ -83,7 +83,8 @@ class Validity:
 def validity(impact: Impact, solved: ContactParameters, *, rigid_from: float = 0.0, yields: bool = False) -> Validity:
     """The interval in which half length and impulse are within 2 % of those of the beam, and that of the force.
 
-    impact : the physical problem. solved : its contact parameters with ε = 1 (α stands for εα and so on).
+    impact : the physical problem.
+    solved : its contact parameters with ε = 1 (α stands for εα and so on).
     rigid_from : time after which a wall that gives way counts as rigid, s (`theory.wall_prediction`).
     yields : whether the leading order's bending stress is beyond the material's yield stress.
     """
