@@ -188,11 +188,8 @@ def coverage(rows: Sequence[MatchRow]) -> Coverage:
             off, bar = number.relative(), number.relative_bar()
             if off is not None and bar is not None:
                 points.append(Point(k, row.kappa_over_nu, row.label, name, abs(off), bar))
-    return Coverage.of(
-        points,
-        len(rows),
-        float(np.mean([not all(number.measured for number in row.compared().values()) for row in rows])),
-    )
+    lost = [not all(number.measured for number in row.compared().values()) for row in rows]
+    return Coverage.of(points, len(rows), float(np.mean(lost)))
 
 
 def write_misses(found: Coverage, drawn: Sequence[Draw], out: Path) -> list[Path]:
