@@ -32,8 +32,8 @@ FAR = System([[1.0] * 6, *np.zeros((2, 6)), [0.0, 0.1] + [0.0] * 4], np.zeros((1
              ContactRows([[0, 1, 2, 3], [2, 3, 4, 5]], 0.5 * np.ones((2, 4)), np.ones(2)))  # fmt: skip
 WAY = '.*model = "euler_bernoulli"'
 LAYER = type("Layer", (GridViscosity,), {"absorbs": True})(viscosity=0.0)  # of somebody's own
-
-
+ONE = ContactRows([[0]], [[1.0]], [1.0])
+system = partial(System, np.ones((1, 2)), np.ones((1, 2)))
 at_rest = partial(integrate, ball(), np.zeros(1), np.zeros(1))
 
 
@@ -59,6 +59,19 @@ REFUSED = [
     (lambda: simulate(SHORT.replace(rotation=-3.0, first_touch=0.5)), r"rotation must not .* at -0\.5 m/s"),
     (lambda: integrate(ball(), np.zeros(2), np.zeros(1), MoreauJean(1e-3), 0.1), r"q must have shape \(1,\) .*\(2,\)"),
     (lambda: integrate(ball(), np.zeros(1), np.zeros(0), MoreauJean(1e-3), 0.1), r"v must have shape"),
+    # systems
+    (lambda: ContactRows([[1], [0]], np.ones((2, 1)), np.ones(2)), "sorted by their first dof"),
+    (lambda: ContactRows([[0, 1], [0, 2]], np.ones((2, 2)), np.ones(2)), "those of several dofs each with another"),
+    (lambda: ContactRows([[0]], [[1.0]], [1.0], places=np.ones(2)), r"places must have shape \(1,\) \(got \(2,\)\)"),
+    (lambda: System(np.ones((1, 2)), np.ones((1, 3)), ONE), r"system\.stiffness must have shape \(≤ 4, 2\)"),
+    (lambda: System(np.ones((5, 2)), np.ones((1, 2)), ONE), r"system\.mass must .* \(got \(5, 2\)\)"),
+    (lambda: system(ONE, (("viscous", np.ones(2)),) * 2), "each of .* at most once"),
+    (lambda: system(ONE, (("friction", np.ones(2)),)), r"dampings must name .* \(got \['friction'\]\)"),
+    (lambda: system(ONE, load=np.ones((2, 3))), r"system\.load must have shape \(powers, 2\)"),
+    (lambda: system(ContactRows([[2]], [[1.0]], [1.0])), "contact rows must name dofs from 0 to 1"),
+    (lambda: system(ContactRows([[-1]], [[1.0]], [1.0])), "contact rows must name dofs from 0 to 1"),
+    (lambda: system(ONE, supports=(-1,)), r"system\.supports must name dofs from 0 to 1 \(got \(-1,\)\)"),
+    (lambda: system(ONE, supports=(0,)), "must not share a dof"),
     # contacts
     (lambda: integrate(FAR, np.zeros(6), np.zeros(6), MoreauJean(1e-3), 0.1), "a few neighbouring dofs"),
     (lambda: NodeContact(restitution=0.05, hold=4), "hold keeps rows closed"),
