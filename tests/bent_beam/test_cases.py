@@ -139,6 +139,7 @@ def test_damping_ratio_and_loss_factor_are_the_same_time_constant():
         ({"section": PIPE | {"wall_thickness": 0.1}}, "walls cross"),
         ({"section": PIPE | {"inner_diameter": 0.1}}, "say the same"),
         ({"section": PIPE | {"poisson_ratio": 0.51}}, "poisson_ratio"),
+        ({"section": PIPE | {"poisson_ratio": -1.0}}, "poisson_ratio"),
         ({"section": {"kind": "round_bar", "diameter": 1e55, **STEEL}}, "section: bending_stiffness must not exceed"),
         ({"impact": {"drop_height": 1.0, "gravity_angle": 90.0}}, "needs gravity towards the wall"),
         ({"beam": {"curvature": 0.1, "hysteretic_loss": 0.1}}, "hysteretic_loss .got 0.1 alone.* is at [0-9.]+ Hz"),
