@@ -1,4 +1,9 @@
-"""The impact problem, case files, meshes, the record of a run and the protocol of a method, shared by all paths."""
+"""The impact problem, case files, meshes, the record of a run and the protocol of a method, shared by all paths.
+
+Read `impact` first, on `scales` (its units) and `loads`; then `cases`, from files by `tables`, `description` and
+`section`; `free_flight`, what the beam would do without the wall; `history`, the record of a run, by `files`; `method`,
+what a path must offer, and `fields`, how its parts are spelled.
+"""
 
 from __future__ import annotations
 

@@ -82,7 +82,7 @@ def _stiffness_and_mass(beam: BeamTable, section: Section | None) -> dict[str, A
             raise InputError(f"beam.section_height = {beam.section_height!r} and [section] clash: give one")
         found["section_height"] = beam.section_height
     elif section is not None:
-        # d of EA = 12 EI/d²: that of a rectangle with this section's radius of gyration
+        # the rectangle with this section's radius of gyration has its EA = 12 EI/d² (Exudyn's true geometry asks)
         found["section_height"] = math.sqrt(12.0) * section.radius_of_gyration
     return found
 

@@ -37,7 +37,7 @@ length = {length}               # m, of the whole beam
 sagitta = {sagitta}             # m, height of the bow over its length (or curvature, 1/m, or dogleg, degrees in 30 m)
 # axial_force = 50e3        # N, tension positive, along x (or tension_direction = "tangent": along the bow)
 damping_ratio = {damping}  # of the first bending mode (or damping, s, or loss_factor at loss_frequency)
-# without this line the answers are for 0.0002, 0.002 and 0.02, the largest stress first
+# without this line there are answers for 0.0002, 0.002 and 0.02; that of the largest stress counts
 
 [impact]
 velocity = {velocity}              # m/s towards the wall (or drop_height, m; angular_speed; amplitude and frequency)

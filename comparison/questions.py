@@ -2,15 +2,15 @@
 
     question ─► run, and companions: one more for each cause of error ─► readings ─► numbers  (:mod:`comparison.runs`)
 
-- early (before :data:`EARLY` T*; without damping before waves return from the ends): on elements that resolve the
-  front, with the damping at grid scale that this takes;
+- early (before :data:`EARLY` T*; of a beam that does not converge before waves return from its ends): on elements that
+  resolve the front, with the damping at grid scale that this takes;
 - later, and for the whole impact: of the whole beam, strictly unilateral, with no damping but the beam's own.
 
 Companions, by cause of error:
 
     mesh_and_step      half as many elements and steps
     finer              twice as many: asked for, or late, without damping, on a soft wall (coarser ones agree by chance)
-    contact_law, …     late: another contact law, as no refinement of one scheme shows what the scheme does
+    contact_law, …     late, on a rigid wall: another contact law, as no refinement of a scheme shows what it does
     contact_law_coarser  a rebound, where the path asks for it: the same on half of the elements, as laws may agree by
                        chance; the larger change counts
     waves_absorbed     early, stated η < 3e-5 T*: no grid viscosity, on even elements
@@ -41,7 +41,7 @@ COARSER, FINER = 0.5, 2.0
 OF_REBOUND = "contact_law_coarser"  # the companion that is compared with ``mesh_and_step``, not with the run
 DRAWN, SEED = 5, 15  # runs of an ensemble at a time, without damping
 WEAK = 3e-5  # η/T*: with less a beam keeps waves that grid viscosity absorbs
-RESOLVES = 0.05  # elements finer by RESOLVES/√(t/T*) than those of a whole beam are a tenth of √(ct)
+RESOLVES = 0.05  # a whole beam's elements refined by RESOLVES/√(t/T*) are a tenth of √(ct) long
 EARLIEST = 1e-5  # T*: before, those waves carry less than 0.1 ‰ of the impulse
 OF_SHORT, SHORT = 2.0, 0.05  # to SHORT, T*, a run has OF_SHORT times the elements of a whole impact; to later, fewer
 FINEST, SOON = 4.0, 0.025  # before SOON, T*, it has more, FINEST times at most, to resolve what the first instants left

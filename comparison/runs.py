@@ -23,7 +23,7 @@ from comparison.workers import run_all
 LEAST = 1e-4  # of a number: its least bar; beams drawn at random were off by as much where companions agreed better
 LIGHT = 3e-4  # η/T* below which a beam has hardly any damping …
 LEAST_LIGHT = 1e-3  # … and its numbers after :data:`SHORT` this least bar, for the same reason
-FLATTEST = 0.1  # κ/ν: the least bar of a rebound from a rigid wall grows from 1 down to this, :data:`LEAST`/(κ/ν)²
+FLATTEST = 0.1  # κ/ν: below 1 the least bar of a rebound from a rigid wall is :data:`LEAST`/(κ/ν)², below this no more
 CHATTER = 0.01  # of the largest moment: what single nodes add to it on a zone of hardly any damping
 UNDAMPED = "no damping is stated: these numbers are those of a beam without any; state [beam] damping_ratio"
 Reading = Callable[[ImpactHistory], dict[str, Any]]

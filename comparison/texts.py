@@ -164,6 +164,8 @@ def _whole(document: dict[str, Any]) -> list[str]:
 
 def _hardest(found: dict[str, Any]) -> str:
     """When and where the wall pushes hardest."""
+    if found["peak_force_time"] is None and found.get("peak_force") is not None:
+        return "The largest force is not known: it may still rise."
     if found["peak_force_time"] is None:
         return f"A rigid wall has no largest force; its largest push begins at {milliseconds(found['push_time'])}."
     when, where = milliseconds(found["peak_force_time"]), found["peak_force_place"]
@@ -213,9 +215,9 @@ def bounce_text(found: dict[str, Any], *, verbose: bool = False) -> str:
         "",
         beam_line(found["model"], found["velocity"]),
         "± is the error bar; a band is mean ± standard deviation of runs. Energies are shares of the initial energy",
-        "and the work of the loads, at the last contact: the end of the first hit, after which the beam is off the",
-        "wall for a period of its first mode at least. The largest moment and stress are those of the whole motion,",
-        f"from 0 to {1e3 * found['span'][1]:.4g} ms{': a period of the lowest mode after the last contact' * left}.",
+        "and the work of the loads, at the last contact (none while the beam stays): the end of the first hit, after",
+        "which it is off the wall for a period of its first mode at least. The largest moment and stress are those of",
+        f"the whole motion, from 0 to {1e3 * found['span'][1]:.4g} ms{' (one such period later)' * left}.",
         _hardest(found),
         *(f"Largest {what}, {unit}, {line}." for line in _over_damping(damped, name, scale)),
         *(_checks(found) if verbose else []),

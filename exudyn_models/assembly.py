@@ -33,7 +33,7 @@ MODELLED = ("acceleration", "curvature_rate", "fourth_derivative", "axial_force"
 
 STRETCH = 1e-4  # largest strain under the axial force in the linear limit: lengths are then right to as much
 TAUT = 1e4  # EAΛ²/EI under it: the stretch then moves the front by 7e-4 of what the force itself does (κ/ν = 0.5)
-STRETCH_LATER = 1e-6  # likewise once waves are back: with 1e-4 the impulse is 1e-3 off, with 1e-7 round-off shows
+STRETCH_LATER = 1e-6  # likewise once waves are back: with 1e-4 the impulse is 8e-4 off, with 1e-7 round-off shows
 NEAR = 1e-9  # of the half length: a place so near the end lies there
 GREY = [0.35, 0.35, 0.35, 1.0]
 

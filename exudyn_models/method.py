@@ -72,7 +72,7 @@ class ExudynModel(Part):
     geometry: Geometry | None = None
     solver: NewtonSolver | None = None
     full_beam: Annotated[bool, Quantity("", "both halves instead of one with a symmetry support")] = False
-    refine: Annotated[float, Quantity("", "refinement factor of elements and steps", above=0.0)] = 1.0
+    refine: Annotated[float, Quantity("", "refinement factor of elements; steps follow", above=0.0)] = 1.0
     label: str = "Exudyn"
 
     for_whole_beam = whole_beam.for_whole_beam

@@ -5,14 +5,17 @@ they show. Its own nodal contact compares that state with the one at the *start*
 (docs/exudyn_contact_state.md), this judge with the one that the solution *assumed*. Where the contact has a law of its
 own (``imposes``: closed is what pushes), that decides, and the states are written over Exudyn's.
 
-- They agree, but for forces below the tolerance: the step is accepted at once;
-- all connectors follow their gaps at once. When ``BLOCK`` repetitions have not made fewer contradict theirs, one at a
-  time is switched until fewer do: the one with the largest force, and after ``PERSISTENCE`` repetitions more the last
-  (Murty's rule; as in the Hermite path: Júdice & Pires 1994, Comput. Oper. Res. 21, 587);
-- a state comes back that this step had already tried: the next of these rules is taken at once, as the first two may
-  circle although a state is consistent. Where it comes back under Murty's, no state is taken to be consistent: the one
-  of that circle that contradicts itself least is accepted, and counted;
-- the repetitions run out before: the step is not solved.
+Where they agree, but for forces below the tolerance, the step is accepted. Else it is repeated, by three rules in turn
+(as in the Hermite path: Júdice & Pires 1994, Comput. Oper. Res. 21, 587):
+
+1. all connectors follow their gaps at once;
+2. when ``BLOCK`` repetitions have not made fewer contradict theirs, the one with the largest force is switched;
+3. after ``PERSISTENCE`` repetitions more, the last one (Murty's rule).
+
+As soon as fewer contradict, the first rule is back. The first two may circle although a state is consistent: where a
+state comes back that this step has already tried, the next rule is taken at once. Where one comes back under the third,
+no state is taken to be consistent: the one of that circle that contradicts itself least is accepted, and counted. When
+the repetitions run out before, the step is not solved.
 """
 
 import math

@@ -14,8 +14,8 @@ reaction is exact. What they share is what closed rows do (:meth:`Contact.law`),
 options keep closed constraints closed whatever they pull, for comparison and for the infinite beam's first instants
 only:
 
-- ``hold_until``: nothing that has closed opens before this time: a bilateral start, which the long first step of
-  :mod:`hermite_fe.resolution` makes needless.
+- ``hold_until``: nothing that has closed opens before this time: a bilateral start. With the long first step of
+  :mod:`hermite_fe.resolution` it is not needed.
 - ``hold``: a constraint that has closed is not released until the front is so many constraints further. What is held
   so vanishes as elements shrink. Behind a moving front the exact reaction is zero, and noise of either sign there
   turns into pushes off the wall.

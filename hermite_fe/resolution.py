@@ -75,7 +75,7 @@ class Composition(Part):
         float | None,
         Quantity("m", "half length to model; cut ends follow the free motion", above=0.0, absent="all of it"),
     ] = None
-    refine: Annotated[float, Quantity("", "refinement factor of elements and steps", above=0.0)] = 1.0
+    refine: Annotated[float, Quantity("", "refinement factor of elements; steps follow", above=0.0)] = 1.0
 
     def refined(self, factor: float) -> Self:
         """A copy with elements and steps ``factor`` times finer."""

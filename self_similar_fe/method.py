@@ -40,7 +40,7 @@ class SelfSimilarFE(Part):
     PARTS: ClassVar[dict[str, dict[str, type]]] = {"mesh": MESHES}
 
     mesh: ExpandingMesh | None = None
-    refine: Annotated[float, Quantity("", "refinement factor of elements and steps", above=0.0)] = 1.0
+    refine: Annotated[float, Quantity("", "refinement factor of elements; steps follow", above=0.0)] = 1.0
     label: str = "Self-similar"
 
     def refuses(self, impact: Impact) -> str | None:

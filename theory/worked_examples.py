@@ -6,7 +6,7 @@ r"""The two worked examples of perturbation theory: perturbed roots and the Duff
     multiple scales     y = cos ωt + (ε/32)(cos 3ωt − cos ωt), ω = 1 + 3ε/8           (2.2.13), (2.2.14)
 
 The term t sin t grows without bound, the oscillator does not: the reason for two time scales (Fig. 2.2). No impact:
-they stand in the gallery and in docs/theory.md, section 12.
+they stand in docs/theory.md, section 12, the oscillator in the gallery.
 """
 
 import numpy as np

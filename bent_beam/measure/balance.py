@@ -32,18 +32,23 @@ EARLY = 0.8  # of the impulse: what is given after it is always looked at
 
 @dataclass(frozen=True)
 class Balance:
-    """momentum, second_moment : largest residual of the equations above in the second half of the saved instants, over
-    the largest |J| and Σ x_i² J_i (second_moment less what missing momentum at the ends would explain); points : the
-    impulses of the contact points, added up, less J, over the largest |J|, at the end; law : likewise that of the
-    contact law, where J is what the momentum lacks and is shared among the points; initial_energy : (recorded −
-    ½μLV₀²)/½μLV₀² at t = 0, where the beam arrives with one velocity; gap_of_push : largest gap at the end of an
-    interval in which a contact point pushed, over V₀t.
+    """Shares, ``None`` where one means nothing.
 
-    penetration : deepest node in a rigid wall, over V₀t; pull : most impulse that a contact point, not held, took back
-    between two saved instants, over the most that one gave. These three look at each wall late: from half of the time
-    to its last push on, or from when four fifths of the impulse are given, if that is earlier. energy : most that
-    the budget leaves at a saved instant, over the initial energy and the work of the loads; middle_slope : largest
-    slope at x = 0 of a symmetric run, over the largest anywhere. ``None`` where a number means nothing."""
+    momentum, second_moment : largest residual of the equations above in the second half of the saved instants, over
+        the largest |J| and Σ x_i² J_i (second_moment less what missing momentum at the ends would explain).
+    points : the impulses of the contact points, added up, less J, over the largest |J|, at the end.
+    law : the impulse of the contact law likewise, where J is what the momentum lacks and is shared among the points.
+    initial_energy : (recorded − ½μLV₀²)/½μLV₀² at t = 0, where the beam arrives with one velocity.
+    energy : most that the budget leaves at a saved instant, over the initial energy and the work of the loads.
+    middle_slope : largest slope at x = 0 of a symmetric run, over the largest anywhere.
+
+    Three look at each wall late: from half of the time to its last push on, or from when four fifths of the impulse
+    are given, if that is earlier.
+
+    gap_of_push : largest gap at the end of an interval in which a contact point pushed, over V₀t.
+    penetration : deepest node in a rigid wall, over V₀t.
+    pull : most impulse that a contact point, not held, took back between two saved instants, over the most that one
+        gave."""
 
     path: str  # the key of its limits (:data:`bent_beam.measure.limits.LIMITS`)
 

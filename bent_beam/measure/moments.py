@@ -21,9 +21,9 @@ __all__ = [
     "mean_reaction", "moments", "one_side", "unresolved", "unresolved_at_end", "unsure",
 ]  # fmt: skip
 
-ZONE = 0.7  # of the front: what pushes there is what the zone behind the front bears
+ZONE = 0.7  # of the front: what pushes within is the zone's uniform reaction
 AROUND = 0.1  # of the time, before and after
-JUMP, MOVES = 0.02, 4.0  # of a rim, and times what one ~ √t moves on by between two saved instants: less is no jump
+JUMP, MOVES = 0.02, 4.0  # a rim jumps by more than this share of it, and this many times what one ~ √t moves by
 FEW = 3  # elements
 UNSURE = 0.5  # of what a front differs from one ~ √t by
 PUSH = 1e-9  # of the largest impulse of a contact point: less is round-off

@@ -38,9 +38,8 @@ class WholeImpact:
     """One run's whole impact, dimensionless (see the module's head).
 
     restitution : ``None`` where the beam has not left: loads keep it on the wall, or the run ends too early.
-    within : ``last_contact`` is the middle between two saved instants, and known within half of their distance; within
-        all of it where a wall gives way, whose push falls to zero gradually. drift : how much restitution and shares of
-        the energy change within that time.
+    within : how well ``last_contact`` is known, the middle between two saved instants: half of their distance, all of
+        it where a wall gives way, whose push fades. drift : how much restitution and shares of the energy change in it.
     until : end of the span that the largest moment and force are of.
     contacts : begin and end of each contact, separations shorter than the shortest ignored; the last ends at the last
         contact, last_push is its impulse over mV₀, a velocity over V₀. returns : when the beam is nearest to the wall

@@ -76,8 +76,8 @@ Methods = Annotated[
 ErrorBars = Annotated[
     str,
     typer.Option(
-        help="quick: one more run, of half the resolution. thorough: also one of twice. drift: none. After 0.003 T* "
-        "simulate adds one with another contact law."
+        help="quick: one more run, of half the resolution. thorough: also one of twice. drift: none. Later "
+        "than 0.003 T* simulate adds runs of its own (see the guide)."
     ),
 ]
 Refine = Annotated[

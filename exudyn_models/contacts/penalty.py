@@ -166,7 +166,10 @@ class Penalty(Contact):
     relative_stiffness: Annotated[
         float | None,
         Quantity(
-            "", "C in k = C EI/Δx⁴ per length of beam", above=0.0, absent=f"{STIFFNESS:g} or more (whole beam 1.25)"
+            "",
+            "C in k = C EI/Δx⁴ per length of beam",
+            above=0.0,
+            absent=f"{STIFFNESS:g} or more (whole beam, κ/ν < 1: 1.25)",
         ),
     ] = None
     relative_damping: Annotated[

@@ -242,7 +242,7 @@ class Element(Part, ABC):
         ),
     ] = None
     axial_stiffness: Annotated[
-        float | None, Quantity("N", "EA", above=0.0, absent="12EI/d² (true), EI/Λ² or less (linear)")
+        float | None, Quantity("N", "EA", above=0.0, absent="12EI/d² (true), EI/Λ² or less (linear), 1e4 of it with N")
     ] = None
 
     def refuses(self, impact: Impact) -> str | None:
