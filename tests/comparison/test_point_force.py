@@ -44,6 +44,7 @@ def test_force_and_wall_move_and_turn_the_beam_and_both_paths_agree(beam, alike)
     """∫μ v dx = mV₀ + Ft − J and ∫μ x v dx = F x_F t − Σ x_i J_i, but for what turns the sections."""
     found, given = [], beam.push * 0.2
     assert beam.lifts == (given < 0.0), "a pull lifts the zone"
+    assert beam.load_within(1.0, 2) == pytest.approx(beam.push * beam.push_at**2), "∫x²p dx"
     for path in (HermiteFE(refine=0.5), ExudynModel(refine=0.5)):
         history = path.for_whole_beam(beam).simulate(beam, end_time=0.2, save=400)
         assert not [text for text in history.warnings if "mesh" in text]

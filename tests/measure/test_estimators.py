@@ -115,6 +115,10 @@ def test_a_run_that_drifts_within_its_window_has_a_bar_for_it():
     late = dataclasses.replace(smooth, impulse=np.where(smooth.tau > 0.07, 1.02, 1.0) * smooth.impulse)
     found, half = (leading_order(late, window=window).r0 for window in (10.0, 10.0**0.5))
     assert found.parts["drift"] == pytest.approx(4.0 * abs(half.value - steady.value), rel=0.02)
+    for phase in np.linspace(0.0, 5.76, 12):  # a swing that one part of the window hides, another shows
+        swing = 1.0 + 0.01 * np.cos(2.0 * np.pi * np.log10(smooth.tau) + phase)
+        swung = leading_order(dataclasses.replace(smooth, impulse=smooth.impulse * swing)).r0
+        assert swung.parts["drift"] > 4.0 * 0.038 * swung.value
 
 
 @pytest.mark.parametrize("first", [(4.0, 0.0, 0.0), (1.0, 1.0, 1.0), (-1.0, -1.0, 0.0), (0.0, 0.0, 1.0)])
