@@ -56,7 +56,7 @@ REFUSED = [
     (lambda: run(mesh=NODES, end_time=5.0), r"mesh.places .* 4.0 .*got 2.0"),
     (lambda: run(mesh=NodesMesh((0.0, 2.0, 5.0))), r"end at the half length 4.0 \(got 5.0\)"),
     (lambda: run(mesh=UniformMesh(1.9e-5)), "200000 are the most"),
-    (lambda: run(Impact.dimensionless(0.5, length=8.0), end_time=1.0, geometry=TrueGeometry()), "more than a right angle"),
+    (lambda: run(Impact.dimensionless(0.5, length=8.0), end_time=1.0, geometry=TrueGeometry()), "right angle"),
     # settings
     (lambda: table("integrator", kind="newmark", gamma=1e300), "integrator.gamma"),
     (lambda: table("contact", kind="penalty", relative_stiffness=-1.0), "relative_stiffness must be positive"),
