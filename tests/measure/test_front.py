@@ -113,10 +113,16 @@ def test_the_map_of_forces_holds_the_impulse_and_a_pull_is_a_share_of_a_push_in_
 
 def test_a_moment_that_passes_its_earlier_largest_between_saved_instants_is_interpolated_itself() -> None:
     """It is 0.9 at 2 s and 1.5 at 3 s, and the largest before was 1.2: that stands until 2.5 s, with its place. The
-    first, at 1 s, is there at once: it does not grow from 0."""
-    time, moment = np.arange(5.0), np.array([0.0, 1.2, 0.9, 1.5, 1.0])
-    told = {"largest_moment": moment, "largest_midspan_moment": moment, "largest_moment_place": 0.1 * time}
-    run = history_of(time, np.linspace(0.0, 1.0, 5), impact=Impact.whole_beam(2.0), **told)
+    first, at 1 s, is there at once: it does not grow from 0, but on to the second."""
+    time = np.arange(5.0)
+
+    def moving(moment):
+        told = {"largest_moment": moment, "largest_midspan_moment": moment, "largest_moment_place": 0.1 * time}
+        return history_of(time, np.linspace(0.0, 1.0, 5), impact=Impact.whole_beam(2.0), **told)
+
+    grown = [largest_moment(moving(np.array([0.0, 0.4, 1.2, 0.5, 1.4])), at).moment for at in (0.5, 1.25, 2.0, 9.0)]
+    assert grown == pytest.approx([0.4, 0.6, 1.2, 1.4])
+    run = moving(np.array([0.0, 1.2, 0.9, 1.5, 1.0]))
     times = (0.6, 2.0, 2.4, 2.6, 2.9, 3.0, 3.5)
     found = [largest_moment(run, at) for at in times]
     assert [one.moment for one in found] == pytest.approx([1.2, 1.2, 1.2, 1.26, 1.44, 1.5, 1.5])
