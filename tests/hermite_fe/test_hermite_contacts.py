@@ -1,5 +1,6 @@
 """Unilateral contact along the beam; what the hold does; a wall that pulls a little; contact points without mass."""
 
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -20,6 +21,7 @@ from hermite_fe.contacts import CONTACTS, AlternateContact, Contact, MiddleConta
 from hermite_fe.far_fields import GridViscosity
 from hermite_fe.integrators import Integrator, MasslessBoundary, MoreauJean, SignoriniPosition
 from hermite_fe.run import integrate
+from hermite_fe.simulate import hold_report
 from hermite_fe.system import ContactRows, System
 
 verify = pytest.mark.verify
@@ -112,6 +114,16 @@ def test_no_hold_acts_once_waves_may_be_back() -> None:
     held = history.array("held_impulse")
     assert history.settings["hold"]["until"] == pytest.approx(0.005) and history.settings["hold"]["pull"] > 0.0
     assert held[-1] == held[np.searchsorted(history.time, 0.0052)] < 0.0
+
+
+def test_held_points_pulled_by_the_largest_pull_over_the_largest_push_of_one_of_them() -> None:
+    pushed, pulled = (
+        np.array([[0.0, 0.0], [10.0, 1.0], [11.0, 13.0]]),
+        np.array([[0.0, 0.0], [-1.0, 0.0], [-1.0, -3.0]]),
+    )
+    run = SimpleNamespace(time=np.array([0.0, 0.2, 0.4]), law=ContactLaw(hold_until=0.3), impulse=pushed)
+    assert hold_report(SimpleNamespace(**vars(run), held_impulse=pulled)) == {"until": 0.3, "pull": 3.0 / 12.0}
+    assert hold_report(SimpleNamespace(**vars(run), held_impulse=0.0 * pulled)) is None
 
 
 def test_impact_loss_vanishes_under_refinement() -> None:

@@ -50,6 +50,17 @@ def test_moments_are_those_of_the_shape_also_of_a_bow_that_is_not_free_of_stress
     assert history.moment[-1] > 1.1 * impact.curvature
 
 
+def test_the_largest_moments_are_those_of_all_steps_between_saved_instants() -> None:
+    parts = {"mesh": UniformMesh(0.05), "integrator": MoreauJean(1e-3)}
+    beam = Impact.whole_beam(0.3, relative_damping=0.01)
+    few, every = (simulate(beam, end_time=0.4, save=np.linspace(0.0, 0.4, k + 1), **parts) for k in (8, 400))
+    middle = np.abs(every.bending_moments(slice(1, None))[0][:, 0, 0])
+    assert every.array("largest_midspan_moment")[1:] == pytest.approx(middle, rel=1e-9)
+    for name in ("largest_moment", "largest_midspan_moment"):
+        most = every.array(name)[1:].reshape(8, 50).max(axis=1)
+        assert few.array(name)[1:] == pytest.approx(most, rel=1e-12) and np.any(np.diff(most) < 0.0)
+
+
 def test_a_free_motion_that_meets_the_wall_elsewhere_is_said_of_ends_that_follow_it() -> None:
     """q₀ > 0 bends the far ends into the wall: V₀t − Kx²/2 + q₀x⁴/24 = 0 again at x² = 12K/q₀."""
     impact, nodes = Impact.dimensionless(0.5, length=60.0).replace(fourth_derivative=0.02), np.linspace(0.0, 30.0, 601)
