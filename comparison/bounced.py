@@ -164,6 +164,12 @@ class Bounce:
                 f"{back} to the wall; these numbers are those of the first hit, later ones may be larger: "
                 "bentbeam bounce --hits 3 lists them"
             )
+        last, path = self.numbers["last_contact"], self.runs.question.method.path
+        if last.value is not None and (last.bar or 0.0) > last.value:
+            found.append(
+                "the beam nearly touches the wall once more: if it does, the last contact is much later and the "
+                f"rebound may change by more than its bar; ask once more with --set {path}.refine=2"
+            )
         return [*found, *told_by(self.in_si, self.case.section), *self.runs.warnings, *others]
 
     def to_dict(self) -> dict[str, Any]:

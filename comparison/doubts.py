@@ -23,6 +23,7 @@ SOUND = (9.0, 30e3)  # m/s, √(E/ρ): soft rubber has 30, diamond 18 000; MPa f
 STRETCHED = 0.05  # |N|/EA, from which no material of a section is linear
 STUBBY = 15.0  # radii of gyration: some four depths
 OVERDAMPED = 0.5  # of the first mode, from which a damping ratio is no material's
+SUNK = 0.1  # of the beam's length: how far it sinks into a soft wall, from which the wall's unit deserves a doubt
 STEEP = 0.3  # slope of the bow at the beam's ends from which the small-slope theory deserves a warning
 ACROSS = 0.01  # |N|/κ_sGA, likewise
 STRAIGHTENED = 0.1  # N L²/(π² EI) of either sign, from which an axial force deserves one
@@ -57,7 +58,7 @@ def doubts(impact: Impact, section: Section | None) -> list[str]:
     if begin < end and ratio > 1.0 and not _has_no_size(impact):
         found.append(f"the wall's damping ratio is {ratio:.3g}, beyond critical (a ratio is not in percent)")
     sunk = impact.velocity * math.sqrt(impact.mass_per_length / (impact.wall_stiffness or math.inf))  # of a stiff beam
-    if begin < end and sunk > impact.half_length and not _has_no_size(impact):
+    if begin < end and sunk > SUNK * impact.length and not _has_no_size(impact):
         found.append(
             f"the wall gives way by some {sunk:.2g} m, the beam is {impact.length:g} m long: is wall.stiffness in N/m²?"
         )

@@ -45,6 +45,7 @@ RESOLVES = 0.05  # a whole beam's elements refined by RESOLVES/√(t/T*) are a t
 EARLIEST = 1e-5  # T*: before, those waves carry less than 0.1 ‰ of the impulse
 OF_SHORT, SHORT = 2.0, 0.05  # to SHORT, T*, a run has OF_SHORT times the elements of a whole impact; to later, fewer
 FINEST, SOON = 4.0, 0.025  # before SOON, T*, it has more, FINEST times at most, to resolve what the first instants left
+LONGEST_STEP = 0.05  # T*: twenty in a period of a whole beam's first mode, ten of a coarser companion
 INSTANTS, OF_UNIT = 200, 2000  # saved: up to the time asked, evenly in √t; of a whole impact, a T*
 ERROR_BARS = {"drift": (), "quick": (COARSER,), "thorough": (COARSER, FINER)}
 """Resolutions of the companion runs that error bars come from, by name."""
@@ -101,6 +102,9 @@ class Question:
             end = self.until / self.impact.slow_time_scale
             finer = max(1.0, OF_SHORT * min(1.0, SHORT / end) ** (1.0 / 3.0))
             finer = min(finer * max(1.0, SOON / end) ** 0.5, FINEST)
+        longest = LONGEST_STEP * self.impact.slow_time_scale
+        if (step or 0.0) > longest:
+            raise InputError(f"integrator.time_step must be at most {longest:.3g} s for the whole beam (got {step!r})")
         return for_whole_beam(refined(method, finer) or method, self.impact)
 
     def companions(self) -> dict[str, tuple[Impact, Method]]:

@@ -163,7 +163,8 @@ def _digits(error: float) -> int:
 
 
 def _with_bar(value: float, error: float) -> str:
-    """``value`` ± ``error``, both to the last digit that is written of the error."""
+    """``value`` ± ``error``, both to the last digit that is written of the error; a value within its bar to two digits
+    of its own, unless it is less than a twentieth of the bar."""
     if error <= 0.0:
         return f"{value:.6g} ± {error:.1g}"
     error = float(f"{error:.{_digits(error)}g}")
@@ -174,4 +175,7 @@ def _with_bar(value: float, error: float) -> str:
     digits = significant - 1 - math.floor(math.log10(error))
     places = min(max(0, digits), 12)
     size = f"{error:.{places}f}" if digits <= places else f"{error:.{significant}g}"
+    if 0.05 * error <= abs(value) < error:
+        digits = max(digits, 1 - math.floor(math.log10(abs(value))))
+        places = min(max(0, digits), 12)
     return f"{round(value, digits) + 0.0:.{places}f} ± {size}"  # not −0

@@ -12,7 +12,7 @@ from histories import rod
 from scipy.integrate import solve_ivp
 
 from bent_beam import Impact, ImpactHistory, load_case
-from bent_beam.measure.numbers import Band
+from bent_beam.measure.numbers import Band, Number
 from bent_beam.measure.whole_impact import whole_impact
 from bent_beam.meshes import UniformMesh
 from bent_beam.method import LONGEST_OF_WALL, separation_times, simulate_to_separation, time_on_wall
@@ -20,6 +20,7 @@ from comparison.bouncing import bounce, case_of, follow_hits, problem
 from comparison.questions import Question
 from comparison.store import RunStore
 from exudyn_models import ExudynModel
+from exudyn_models.integrators import Trapezoidal
 from hermite_fe import HermiteFE
 from hermite_fe.contacts import MiddleContact, NodeContact
 from hermite_fe.integrators import Midpoint, MoreauJean, SignoriniPosition
@@ -35,6 +36,15 @@ def test_error_bars_of_a_bounce_hold_the_converged_value(path, elements, widest)
     assert set(restitution.parts) == {*found.runs.companions, "saved_instants"}
     assert restitution.bar == sum(restitution.parts.values())
     assert abs(restitution.value - 0.33636) <= restitution.bar < widest
+    unsure = dataclasses.replace(found, numbers=found.numbers | {"last_contact": Number(0.5, 0.6)})
+    (said,) = set(unsure.warnings) - set(found.warnings)
+    assert "touches the wall once more" in said and f"--set {path.path}.refine=2" in said
+
+
+@pytest.mark.parametrize(("path", "scheme"), [(HermiteFE, MoreauJean), (ExudynModel, Trapezoidal)])
+def test_a_step_that_follows_no_mode_of_the_beam_is_refused(path, scheme) -> None:
+    with pytest.raises(ValueError, match=r"^integrator.time_step must be at most 0.05 s .* \(got 0.06\)"):
+        bounce(problem(0.5, 1e-2), path(integrator=scheme(time_step=0.06)))
 
 
 def test_a_bounce_off_a_wall_that_gives_way_has_its_largest_force_and_is_faster_than_off_a_rigid_one() -> None:
