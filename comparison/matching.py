@@ -31,7 +31,6 @@ from comparison.rows import (
     match_document,
     match_table,
     reason_of,
-    shows_zone,
     with_theory,
 )  # fmt: skip
 from comparison.runs import Run, kept
@@ -169,7 +168,8 @@ def answer(question: MatchQuestion, store: RunStore, limit: float | None = None)
         warnings.append(f"wide error bar: λ₀ = {leading.lambda0}, r₀ = {leading.r0}")
     if estimate is not None and estimate.r1.spread > WIDE_FIRST * max(abs(estimate.r1.known), 1.0):
         warnings.append(f"wide error bar: r₁ = {estimate.r1}")
-    if estimate is not None and not shows_zone(question, leading):
+    numbers = with_theory(question, leading, estimate)
+    if estimate is not None and numbers["lambda1"].value is None:
         warnings.append(
             f"λ₁ is missing: the run shows no zone, λ₀ = {leading.lambda0} is not larger than its error bar"
         )
@@ -178,7 +178,7 @@ def answer(question: MatchQuestion, store: RunStore, limit: float | None = None)
     holds = [reading["hold"] for reading in readings if reading["hold"]]
     return MatchRow(
         **about(question),
-        **with_theory(question, leading, estimate),
+        **numbers,
         peak_force=_peak_force(question, [found.runs[0] for found in (fine, *others)]),
         lift=leading.lift,
         **_largest(readings, "pull", "momentum_residual", "gap_of_push"),

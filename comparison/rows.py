@@ -19,7 +19,7 @@ from comparison.readable import shown, text_table
 __all__ = [
     "DURATION", "HELD_AGAINST", "THESIS_KAPPAS", "First", "MatchQuestion", "MatchRow", "about", "failures",
     "first_order_epsilon", "lost_row", "match_document", "match_table", "questions", "reason_of",
-    "shows_zone", "with_theory",
+    "with_theory",
 ]  # fmt: skip
 
 First = tuple[float, float, float, float]
@@ -189,19 +189,15 @@ def questions(
     ]
 
 
-def shows_zone(question: MatchQuestion, leading: LeadingEstimate) -> bool:
-    """Whether a run shows the zone that a flat bow has; a sharp one has none, and λ₁ = 0."""
-    return question.kappa_over_nu >= 1.0 or leading.front > 0.0
-
-
 def with_theory(question: MatchQuestion, leading: Any, estimate: Any) -> dict[str, Any]:
-    """The numbers of a row with the theory's beside them. λ₁ of a zone that the run does not show is missing."""
+    """The numbers of a row with the theory's beside them. λ₁ is missing where a run does not show the zone that a flat
+    bow has; a sharp one has none, and λ₁ = 0."""
     from theory import contact_parameters
 
     exact = contact_parameters(question.kappa_over_nu, **question.loads)
     row: dict[str, Any] = {"regime": str(exact.regime)}
     for name, source in (("lambda0", leading), ("r0", leading), ("lambda1", estimate), ("r1", estimate)):
-        missing = source is None or (name == "lambda1" and not shows_zone(question, leading))
+        missing = source is None or (name == "lambda1" and question.kappa_over_nu < 1.0 and not leading.front > 0.0)
         number = MISSING if missing else getattr(source, name)
         theory = getattr(exact, name) if name in ("lambda0", "r0") or question.first else None
         row[name] = replace(number, theory=theory)

@@ -82,7 +82,7 @@ def _of_front(places: Array, scaling: Scaling) -> list[str]:
         k = min(int(np.searchsorted(places, scaling.front * math.sqrt(part))), places.size - 2)
         held = 2.0 / scaling.front * math.sqrt(part) / (places[k + 1] - places[k])
         if held < NEEDED:
-            return [f"under-resolved front: its bending length holds {held:.1f} elements at {when}, needs {NEEDED:g}"]
+            return [f"under-resolved front: its bending length holds {held:.3g} elements at {when}, needs {NEEDED:g}"]
     return []
 
 
