@@ -99,17 +99,6 @@ def test_page_is_the_theory_on_random_beams(walls: int, count: int) -> None:
     assert compared > 5 * (walls + count) and unknown > 3
 
 
-def test_the_page_doubts_a_speed_of_sound_and_a_strain_that_no_material_has_and_the_weight_of_an_added_mass() -> None:
-    """As `doubts` does (tests/comparison/test_prediction.py)."""
-    beam, numbers = "Beam.impact({...Beam.START, ...more})", "{restitution: {}, moment: {}, force: {}}"
-    told = f"given.map((more) => Words.warnings({beam}, {numbers}, Beam.problem({beam}, 0.01), false).join(' '))"
-    mistakes = [{"youngs_modulus": 70e3}, {"density": 2.7}, {"tension": 2e6}, {"added_mass": 1.0}, {}]
-    slow, fast, pulled, wet, sane = evaluated(told, mistakes)
-    assert "buoyancy" in wet and "buoyancy" not in sane
-    assert "speed of sound of 5.09 m/s" in slow and "speed of sound of 161" in fast
-    assert "strains the section by 0.06" in pulled and "speed" not in sane + pulled and "strains" not in sane
-
-
 def random_inputs(count: int, seed: int) -> list[dict[str, Any]]:
     """What somebody might type, in every combination of ways to say it."""
     rng, found = np.random.default_rng(seed), []

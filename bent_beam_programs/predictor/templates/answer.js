@@ -10,10 +10,14 @@ const Answer = (() => {
   /** Whether finer elements come to numbers: of a damped beam, or on a soft wall (bent_beam/hysteresis.py). */
   const converges = ({ eta, wall }) => eta > 0 || (wall !== null && wall.k ** -0.25 >= BARS.soft);
 
+  /** Sum of the loads, towards the wall: none where an axial force and what holds the bow against it cancel but for
+      round-off (Scales.net_load). */
+  const net = ({ load, pull }) => (abs(load + pull) > 1e-12 * abs(pull) ? load + pull : 0);
+
   /** Elements a half beam, steps a T*, law: finer where a front is thin or damping small (hermite_fe/whole_beam.py). */
   function resolution(p) {
     const { elements, step, hard, thick, damped, point, pressed, largest } = RUNS;
-    const finer = p.kappa < thick || p.eta < damped ? hard : 1, atPosition = p.kappa >= point && p.load + p.pull <= pressed;
+    const finer = p.kappa < thick || p.eta < damped ? hard : 1, atPosition = p.kappa >= point && net(p) <= pressed;
     if (!p.wall) return { elements: finer * elements, steps: round(finer * elements / step), atPosition };
     const length = p.wall.k ** -0.25;
     return { elements: round(min(max(elements, 1 / (largest * length)), 300)),
@@ -95,5 +99,5 @@ const Answer = (() => {
     }));
   }
 
-  return { RATIOS, quick, runs, numbers, converges };
+  return { RATIOS, quick, runs, numbers, converges, net };
 })();

@@ -45,7 +45,7 @@ const Words = (() => {
   function warnings(b, { restitution, moment, force }, problem, whole) {
     const wide = (one, least = 0) => one.bar > DOUBTS.wide * Math.max(Math.abs(one.value), least);
     const settled = Answer.converges(problem), wides = whole && settled && (wide(moment) || wide(restitution, DOUBTS.least_restitution));
-    const back = restitution.value !== null && problem.load + problem.pull > 0;
+    const pressed = Answer.net(problem) > 0, back = restitution.value !== null && pressed;
     const pull = b.tension * b.length ** 2 / (Math.PI ** 2 * b.stiffness); // over the buckling load
     const bends = pull > 0 ? "straightens it" : "bends it further";
     const [slowest, fastest] = DOUBTS.sound, unreal = b.sound < slowest || b.sound > fastest;
@@ -55,7 +55,7 @@ const Words = (() => {
       [wides, "The bars are wide: elements, steps and contact law decide here."],
       [wides, `${COMMAND} --set hermite.refine=2 takes finer elements.`],
       [!b.shear, "Short waves are faster without shear; this page takes few elements, and its bars count that."],
-      [whole && restitution.value === null, (problem.load + problem.pull > 0 ? "The loads keep the beam on the wall" : "A run ended with the beam at the wall") + ": no restitution is given."],
+      [whole && restitution.value === null, (pressed ? "The loads keep the beam on the wall" : "A run ended with the beam at the wall") + ": no restitution is given."],
       [whole && (moment.value === null || force.value === null), "A largest value still rises when the run ends: it is not given."],
       [back, "The loads bring the beam back to the wall; these numbers are those of the first hit."],
       [(b.curvature - b.wallCurvature) * b.length / 2 >= DOUBTS.steep, "The bow is steep: all this is for small slopes."],

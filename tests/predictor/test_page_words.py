@@ -1,0 +1,40 @@
+"""What the page warns of is what ``bentbeam`` warns of."""
+
+import tomllib
+
+import numpy as np
+from page_scripts import evaluated
+
+from bent_beam.cases import case_from_tables
+
+
+def test_the_page_doubts_a_speed_of_sound_and_a_strain_that_no_material_has_and_the_weight_of_an_added_mass() -> None:
+    """As `doubts` does (tests/comparison/test_prediction.py)."""
+    beam, numbers = "Beam.impact({...Beam.START, ...more})", "{restitution: {}, moment: {}, force: {}}"
+    told = f"given.map((more) => Words.warnings({beam}, {numbers}, Beam.problem({beam}, 0.01), false).join(' '))"
+    mistakes = [{"youngs_modulus": 70e3}, {"density": 2.7}, {"tension": 2e6}, {"added_mass": 1.0}, {}]
+    slow, fast, pulled, wet, sane = evaluated(told, mistakes)
+    assert "buoyancy" in wet and "buoyancy" not in sane
+    assert "speed of sound of 5.09 m/s" in slow and "speed of sound of 161" in fast
+    assert "strains the section by 0.06" in pulled and "speed" not in sane + pulled and "strains" not in sane
+
+
+def test_an_axial_force_alone_neither_brings_the_beam_back_nor_keeps_it_on_the_wall() -> None:
+    """What holds the bow against it cancels it, as in `Impact.net_load`; a load of a billionth of it counts."""
+    tensions = 10.0 ** np.random.default_rng(31).uniform(1.0, 3.5, 40)
+    typed = [{"tension": float(sign * tension), "gravity": 0.0} for tension in tensions for sign in (-1.0, 1.0)]
+    typed += [{"tension": 1e4, "gravity": 0.0, "load": load} for load in (1e-7, -1e-7)]
+    expression = """given.map((typed) => {
+        const i = {...Beam.START, ...typed}, b = Beam.impact(i), p = Beam.problem(b, b.damping);
+        const one = {bar: 0, value: 1};
+        const told = (value) => Words.warnings(b, {restitution: {bar: 0, value}, moment: one, force: one}, p, true);
+        return {wrong: Beam.complaints(i), text: Case.toml(i, b), net: Answer.net(p), sum: p.load + p.pull,
+            left: told(0.5).join(" "), stays: told(null).join(" ")}; })"""
+    *alone, pressed, lifted = evaluated(expression, typed)
+    assert sum(row["sum"] > 0.0 for row in alone) > 10  # by round-off
+    for row in alone:
+        assert not row["wrong"] and row["net"] == 0.0
+        assert case_from_tables(tomllib.loads(row["text"])).impact.net_load == 0.0
+        assert "bring the beam back" not in row["left"] and "keep the beam on the wall" not in row["stays"]
+    assert pressed["net"] > 0.0 > lifted["net"]
+    assert "bring the beam back" in pressed["left"] and "keep the beam on the wall" in pressed["stays"]
