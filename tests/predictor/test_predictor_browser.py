@@ -70,6 +70,22 @@ def test_what_is_typed_decides_and_mistakes_are_named_beside_their_field(browser
     assert ask(browser, "document.getElementById('answer').offsetParent !== null")
 
 
+def test_a_mistake_takes_no_button_away(chromium: Any, address: str) -> None:
+    """A case that is saved then is that of before; of a link with a mistake there is none."""
+    browser = opened(chromium, address + "#velocity=2")
+    before = shown(browser, "case")
+    type_into(browser, "density", "0")
+    buttons = ("save", "copy", "reset")
+    assert all(browser.find_element("id", name).is_displayed() for name in buttons)
+    assert ask(browser, "document.querySelector('[for=open]').offsetParent !== null")
+    assert shown(browser, "case") == before and "of before" in shown(browser, "cannot")
+    browser.find_element("id", "reset").click()
+    assert ask(browser, "document.getElementById('in-velocity').value") == "1"
+    assert ask(browser, "document.getElementById('answer').offsetParent !== null")
+    opened(browser, address + "#velocity=0").find_element("id", "save").click()
+    assert shown(browser, "note") == "There is no case yet." and disquiet(browser) == []
+
+
 MOMENT = """(() => { const b = Beam.impact(Beam.START), p = Beam.problem(b, b.damping);
     const solver = new Function(document.querySelector('#simulation').textContent + '; return Solver;')();
     return solver.simulate(p, Answer.runs(p).base).moment; })()"""  # in units of ℓ = EI = μ = V₀ = 1

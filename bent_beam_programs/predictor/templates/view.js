@@ -140,6 +140,10 @@
   }
 
   function save() {
+    if (!asked) { // the page was opened by a link with a mistake
+      find("#note").textContent = "There is no case yet.";
+      return;
+    }
     const file = new Blob([find("#case").textContent], { type: "application/toml" });
     const link = element("a", { href: URL.createObjectURL(file), download: "impact.toml" });
     link.click();
