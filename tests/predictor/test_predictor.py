@@ -19,6 +19,7 @@ from bent_beam.impact import Impact
 from bent_beam.measure.numbers import Number
 from bent_beam_programs.predictor.page import page
 from comparison.bouncing import bounce
+from comparison.doubts import comparable
 from comparison.whole_numbers import FINAL
 from theory import predict as theory_predict
 
@@ -157,7 +158,8 @@ def test_cases_are_read_and_what_the_page_lacks_is_refused_by_name() -> None:
         texts[fall] = ROD.replace("velocity = 1.0", fall)
     texts["nonsense"] = texts["tube"].replace("[run]", "[exudyn]\nrun = true\n[run]")
     found = dict(zip(texts, evaluated(READ, list(texts.values())), strict=True))
-    assert "beam.ends is not on this page" in found.pop("tube_between_plates")
+    between = "beam.ends, wall.from, wall.to are not on this page: take bentbeam simulate"
+    assert found.pop("tube_between_plates") == between
     assert "run = true is not a number" in found.pop("nonsense")
     for name, read in found.items():
         impact = case_from_tables(tomllib.loads(texts[name])).impact
@@ -169,7 +171,7 @@ GENERAL = 'kind = "general"\narea_of_section = 1e-4\nsecond_moment_of_area = 1e-
 REFUSED = [  # instead of a line of the rod, another: what the page says
     ("density = 7850.0", "", "section.density is missing"),
     ("diameter = 0.02", "", "section.diameter is missing"),
-    ('kind = "round_bar"\ndiameter = 0.02', GENERAL, "needs a section that knows its shear"),
+    ('kind = "round_bar"\ndiameter = 0.02', GENERAL, "beam.model = timoshenko needs a section with a shape"),
     ("diameter = 0.02", "diameter = 0.02\nwidth = 0.1", "section.width is none of a round_bar"),
     ("sagitta = 0.01", "", "give one of beam.sagitta, beam.curvature, beam.dogleg"),
     ("sagitta = 0.01", "sagitta = 0.01\ncurvature = 0.1", "give one of beam.sagitta"),
@@ -188,6 +190,25 @@ def test_the_page_makes_nothing_up_of_a_case_that_bentbeam_refuses() -> None:
         with pytest.raises(InputError):
             case_from_tables(tomllib.loads(text))
         assert said in found
+
+
+KNOWN = "bending_stiffness = 1600.0\nmass_per_length = 2.4\n"
+BARE = f"[beam]\n{KNOWN}length = 1.0\nsagitta = 0.01\ndamping_ratio = 0.02\n[impact]\nvelocity = 1.0"
+
+
+def test_of_a_beam_that_shears_without_a_shape_the_page_names_commands_that_take_it() -> None:
+    """And no section without shear, which is what it advises of a beam that has none."""
+    shear = "shear_stiffness = 1e7\n"
+    general = ROD.replace('kind = "round_bar"\ndiameter = 0.02', GENERAL).replace("length", f"{shear}length")
+    plain, sheared, of_section = evaluated(READ, [BARE, BARE.replace(KNOWN, KNOWN + shear), general])
+    assert plain.endswith('beam.mass_per_length are not on this page: give a [section] of kind "general" instead')
+    for said in (sheared, of_section):
+        assert "beam.shear_stiffness" in said and "general" not in said
+        assert said.endswith("take bentbeam predict or bentbeam bounce")
+    case = case_from_tables(tomllib.loads(general))
+    assert (
+        case.impact.shear_stiffness == 1e7 and comparable(case.impact) and bounce(case, case.method("hermite")).numbers
+    )
 
 
 def page_and_bounce(inputs: list[dict[str, Any]], share: float = 1.0) -> tuple[int, list[str]]:

@@ -167,8 +167,14 @@ def test_a_case_is_saved_and_opened(chromium: Any, address: str, tmp_path: Path)
     until(lambda: saved.exists() and saved.stat().st_size > 0, 60.0)  # it is there before its text
     impact = load_case(saved).impact
     assert impact.velocity == 5.0 and impact.axial_force == 20e3
-    for name, note in (("drill_pipe", "is read"), ("two_walls", "beam.bending_stiffness is not on this page")):
+    for name, place, words in (("drill_pipe", "note", "is read"), ("two_walls", "refused", "is not read")):
         browser.find_element("id", "open").send_keys(str(Path(f"cases/{name}.toml").resolve()))
-        until(lambda note=note: note in shown(browser, "note"), 60.0)
+        until(lambda place=place, words=words: words in shown(browser, place), 60.0)
     lambda0 = contact_parameters(load_case("cases/drill_pipe.toml").impact.kappa_over_nu).lambda0
     assert f"λ₀ = {lambda0:.6g}" in shown(browser, "groups")  # what cannot be read changes nothing
+    assert "the form and its numbers are unchanged" in shown(browser, "refused") and shown(browser, "note") == ""
+    above = "(([a, b]) => a.bottom <= b.top && a.top >= 0)(['refused', 'answer'].map("
+    above += "id => document.getElementById(id).getBoundingClientRect()))"
+    assert ask(browser, above)  # and is seen, though the button is at the bottom
+    type_into(browser, "velocity", "4")
+    assert not browser.find_element("id", "refused").is_displayed()

@@ -109,13 +109,29 @@ const Case = (() => {
     "wall.damping_ratio": (i, v) => { i.wall_damping_ratio = v; },
   };
 
-  /** What to do with a key that this page does not have. */
+  /** What to do with keys that this page does not have. */
   const INSTEAD = [
-    [/^beam\.(damping$|loss_|hysteretic)/, "give beam.damping_ratio in its place, or take bentbeam bounce"],
-    [/^impact\.(amplitude|frequency|angular_)/, "give impact.velocity in its place"],
-    [/^beam\.(bending_stiffness|mass_per_length|section_height)$/, 'give a [section] of kind "general" in its place'],
-    [/./, "bentbeam simulate takes it"],
+    [/^beam\.(damping$|loss_|hysteretic)/, "give beam.damping_ratio instead, or take bentbeam bounce"],
+    [/^impact\.(amplitude|frequency|angular_)/, "give impact.velocity instead"],
+    [/^beam\.(bending_stiffness|mass_per_length|section_height)$/, 'give a [section] of kind "general" instead'],
+    [/./, "take bentbeam simulate"],
   ];
+  const OF_SHEAR = /^beam\.(bending_stiffness|mass_per_length|section_height|shear_stiffness|rotary_inertia)$/;
+  const COMMANDS = "bentbeam predict or bentbeam bounce";
+  function instead(name, sheared) {
+    if (sheared && OF_SHEAR.test(name)) return `shear is known here of a section with a shape alone, take ${COMMANDS}`;
+    return INSTEAD.find(([which]) => which.test(name))[1];
+  }
+  /** Sentences on these keys, of one advice together; null if there are none. */
+  function lacking(names, sheared) {
+    const advised = new Map();
+    for (const name of names) {
+      const advice = instead(name, sheared);
+      advised.set(advice, [...(advised.get(advice) || []), name]);
+    }
+    const said = ([advice, of]) => `${of.join(", ")} ${of.length > 1 ? "are" : "is"} not on this page: ${advice}`;
+    return [...advised].map(said).join("; ") || null;
+  }
 
   const NEEDED = ["section.youngs_modulus", "section.density", "beam.length"];
   const ONE_OF = [["beam.sagitta", "beam.curvature", "beam.dogleg"], ["impact.velocity", "impact.drop_height"]];
@@ -137,7 +153,7 @@ const Case = (() => {
     const twice = NOT_BOTH.find((way) => way.every(given));
     const alone = ONLY_WITH.find(([name, other]) => given(name) && !given(other));
     if (kind === "general" && values["beam.model"] === "timoshenko")
-      return "beam.model = timoshenko needs a section that knows its shear";
+      return `beam.model = timoshenko needs a section with a shape, or beam.shear_stiffness for ${COMMANDS}`;
     if (missing) return `${missing} is missing`;
     if (foreign) return `${foreign} is none of a ${kind}`;
     if (open) return `give one of ${open.join(", ")}`;
@@ -151,10 +167,8 @@ const Case = (() => {
     const values = Object.fromEntries(Object.entries(given).flatMap(([table, keys]) => (
       Object.entries(keys).map(([key, value]) => [`${table}.${key}`, value]))));
     const known = (name) => KEYS[name] || name === ".title" || name.startsWith("run.");
-    const others = Object.keys(values).filter((name) => !known(name)).map((name) => (
-      `${name} is not on this page: ${INSTEAD.find(([which]) => which.test(name))[1]}`));
-    if (others.length) throw new Error(others.join("; "));
-    const reason = incomplete(values);
+    const others = Object.keys(values).filter((name) => !known(name));
+    const reason = lacking(others, "beam.shear_stiffness" in values) ?? incomplete(values);
     if (reason) throw new Error(reason);
     for (const name of Object.keys(KEYS)) if (name in values) KEYS[name](found, values[name]); // in this order
     return found;

@@ -16,6 +16,7 @@
   // asked: {id, typed, b, theory, scales, ratios, problems, runs, numbers, whole} of the inputs as they are; sketched:
   // of the quick picture that is being computed, which is shown even if somebody has dragged on
   function update() {
+    refuse("");
     const wrong = Form.complain();
     find("#answer").hidden = wrong;
     find("#cannot").hidden = !wrong;
@@ -149,6 +150,12 @@
     link.click();
     URL.revokeObjectURL(link.href);
   }
+  /** Says at the top why a file was refused: the numbers beside it are not its own. */
+  function refuse(reason) {
+    find("#refused").textContent = reason;
+    find("#refused").hidden = !reason;
+    if (reason) find("#refused").scrollIntoView({ block: "center" }); // the button is at the bottom
+  }
   async function open() {
     const [file] = find("#open").files, note = find("#note");
     if (!file) return;
@@ -157,7 +164,8 @@
       note.textContent = `${file.name} is read.`;
       update();
     } catch (error) {
-      note.textContent = `${file.name}: ${error.message}`;
+      note.textContent = "";
+      refuse(`${file.name} is not read: the form and its numbers are unchanged. ${error.message}.`);
     }
     find("#open").value = "";
   }
