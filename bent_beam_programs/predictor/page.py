@@ -18,7 +18,7 @@ from bent_beam.measure.whole_impact import SHORTEST_SEPARATION, WINDOW
 from bent_beam.method import LONGEST, LONGEST_OF_WALL, ON_WALL
 from bent_beam_programs.predictor.coefficients import coefficients
 from comparison.bouncing import ABOUT, DAMPING_RATIOS, RETURNS
-from comparison.doubts import LEAST_RESTITUTION, SOUND, STEEP, STRAIGHTENED, STRETCHED, STUBBY, WIDE
+from comparison.doubts import LEAST_RESTITUTION, OVERDAMPED, SOUND, STEEP, STRAIGHTENED, STRETCHED, STUBBY, SUNK, WIDE
 from comparison.readable import BEAMS, BEFORE, LIMITS, REGIMES
 from comparison.runs import CHATTER, FLATTEST, LEAST, LEAST_LIGHT, LIGHT
 from hermite_fe import whole_beam
@@ -32,7 +32,8 @@ PAGE = ("answer.js", "draw.js", "form.js", "words.js", "plots.js", "motion.js", 
 WORDS = {"regimes": REGIMES, "limits": LIMITS, "before": BEFORE, "beams": BEAMS}
 """What ``bentbeam predict`` says of contact, theory and beam."""
 DOUBTS = {"wide": WIDE, "least_restitution": LEAST_RESTITUTION, "steep": STEEP, "stubby": STUBBY,
-          "straightened": STRAIGHTENED, "sound": SOUND, "stretched": STRETCHED}  # fmt: skip
+          "straightened": STRAIGHTENED, "sound": SOUND, "stretched": STRETCHED,
+          "overdamped": OVERDAMPED, "sunk": SUNK}  # fmt: skip
 """From when on ``bentbeam bounce`` warns."""
 BARS = {"factor": FACTOR, "least": LEAST, "light": LIGHT, "leastLight": LEAST_LIGHT, "flattest": FLATTEST,
         "chatter": CHATTER, "about": ABOUT, "window": WINDOW, "returns": RETURNS, "ratios": DAMPING_RATIOS,

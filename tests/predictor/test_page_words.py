@@ -1,11 +1,13 @@
 """What the page warns of is what ``bentbeam`` warns of."""
 
+import re
 import tomllib
 
 import numpy as np
 from page_scripts import evaluated
 
-from bent_beam.cases import case_from_tables
+from bent_beam.cases import case_from_tables, load_case
+from comparison.doubts import OVERDAMPED, SUNK, doubts
 
 
 def test_the_page_doubts_a_speed_of_sound_and_a_strain_that_no_material_has_and_the_weight_of_an_added_mass() -> None:
@@ -17,6 +19,28 @@ def test_the_page_doubts_a_speed_of_sound_and_a_strain_that_no_material_has_and_
     assert "buoyancy" in wet and "buoyancy" not in sane
     assert "speed of sound of 5.09 m/s" in slow and "speed of sound of 161" in fast
     assert "strains the section by 0.06" in pulled and "speed" not in sane + pulled and "strains" not in sane
+
+
+def test_the_page_doubts_a_damping_and_a_wall_as_bentbeam_does() -> None:
+    """On either side of each threshold, by the same words but for the unit of the field."""
+    tube = load_case("cases/tube.toml").impact
+    sinks = [tube.mass_per_length / (share * SUNK * tube.length) ** 2 for share in (0.99, 1.01)]  # at 1 m/s
+    typed = [{"damping_ratio": ratio} for ratio in (None, 0.99 * OVERDAMPED, 1.01 * OVERDAMPED, 1.5)]
+    typed += [{"wall_stiffness": 1e8, "wall_damping_ratio": ratio} for ratio in (0.0, 0.99, 1.01, 30.0)]
+    typed += [{"wall_stiffness": stiffness} for stiffness in sinks]
+    expression = """given.map((typed) => {
+        const i = {...Beam.START, ...typed}, b = Beam.impact(i), numbers = {restitution: {}, moment: {}, force: {}};
+        const told = Words.warnings(b, numbers, Beam.problem(b, b.damping ?? 0.01), false).join(" ");
+        return [told.replace("’", "'"), Case.toml(i, b)]; })"""
+    doubted = []
+    for told, text in evaluated(expression, typed):
+        case = case_from_tables(tomllib.loads(text))
+        said = " ".join(doubts(case.impact, case.section))
+        words = ["damps the first mode with a ratio of", "the wall's damping ratio is", "the wall gives way by some"]
+        assert [part in told.lower() for part in words] == [part in said for part in words]
+        assert all(number in said for number in re.findall(r"(?:ratio of|ratio is|by some) ([\d.]+)", told))
+        doubted += [part for part in words if part in said]
+    assert doubted == [words[0]] * 2 + [words[1]] * 2 + [words[2]]
 
 
 def test_an_axial_force_alone_neither_brings_the_beam_back_nor_keeps_it_on_the_wall() -> None:

@@ -49,6 +49,8 @@ const Words = (() => {
     const pull = b.tension * b.length ** 2 / (Math.PI ** 2 * b.stiffness); // over the buckling load
     const bends = pull > 0 ? "straightens it" : "bends it further";
     const [slowest, fastest] = DOUBTS.sound, unreal = b.sound < slowest || b.sound > fastest;
+    const ratio = b.damping / Beam.dampingTime(b, b.length, 1), sunk = b.velocity * Math.sqrt(b.mass / b.wallStiffness);
+    const ofWall = b.wallDamping / (2 * Math.sqrt(b.wallStiffness * b.mass));
     const said = [
       [!settled, "Without damping the outcome is irregular and does not converge: a band is given."],
       [!settled, `${COMMAND} takes more runs for it.`],
@@ -62,6 +64,9 @@ const Words = (() => {
       [Math.abs(pull) > DOUBTS.straightened && b.naturalCurvature === b.curvature, `The bow is not in equilibrium under the axial force, which ${bends}.`],
       [b.tension, `Stresses include ${quantity("stress", Beam.stress(b, 0), 4)} of the axial force.`],
       [b.length < DOUBTS.stubby * b.gyration, `The beam is only ${text(b.length / b.gyration, 2)} radii of gyration long.`],
+      [ratio >= DOUBTS.overdamped, `The material damps the first mode with a ratio of ${text(ratio, 2)}, which is no material’s: its field is in percent.`],
+      [b.wallStiffness && ofWall > 1, `The wall’s damping ratio is ${text(ofWall, 3)}, beyond critical: its field is in percent.`],
+      [b.wallStiffness && sunk > DOUBTS.sunk * b.length, `The wall gives way by some ${quantity("length", sunk, 2)}, the beam is ${quantity("length", b.length)} long: look at the wall’s stiffness.`],
       [unreal, `A speed of sound of ${text(b.sound, 3)} m/s, √(E/ρ), is no material’s: look at modulus and density.`],
       [!unreal && b.strain > DOUBTS.stretched, `The axial force strains the section by ${text(b.strain, 2)}: look at its unit.`],
       [b.weightAdded, "The added mass weighs, too, and no buoyancy is taken off: in a fluid give gravity times the submerged weight over that of all."],
