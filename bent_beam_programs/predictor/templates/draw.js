@@ -12,7 +12,15 @@ const Draw = (() => {
     return String(Number(value.toPrecision(digits))).replace("-", "−");
   }
 
-  /** Both to the first digit of the error, to the second after a 1, as Python (bent_beam/measure/numbers.py). */
+  /** A number with so many digits behind the point; of fewer than none, to tens and hundreds. */
+  function fixed(value, digits) {
+    const unit = 10 ** Math.abs(digits), rounded = digits < 0 ? Math.round(value / unit) * unit : value;
+    const written = rounded.toFixed(Math.max(0, digits)), sign = Number(written) < 0 ? "−" : ""; // none before a zero
+    return sign + written.replace("-", "");
+  }
+
+  /** Both to the first digit of the error, to the second after a 1; a value within its error to two digits of its own,
+      unless it is less than a twentieth of it: as Python (bent_beam/measure/numbers.py). */
   function bar(value, error) {
     if (!(error > 0)) return `${text(value, 6)} ± ${text(error, 1)}`;
     const starts1 = (size) => (size.toExponential(1).startsWith("1") ? 1 : 0);
@@ -21,10 +29,9 @@ const Draw = (() => {
     const digits = more - Math.floor(Math.log10(first));
     if (power >= 6 || power < -4)
       return `(${bar(value / 10 ** power, first / 10 ** power)})·${text(10 ** power, 1).slice(2)}`;
-    const unit = 10 ** Math.abs(digits), rounded = digits < 0 ? Math.round(value / unit) * unit : value;
-    const places = Math.max(0, digits);
-    const written = rounded.toFixed(places), sign = Number(written) < 0 ? "−" : "";  // no sign before a zero
-    return `${sign}${written.replace("-", "")} ± ${first.toFixed(places)}`;
+    const size = Math.abs(value), within = 0.05 * first <= size && size < first;
+    const own = within ? Math.max(digits, 1 - Math.floor(Math.log10(size))) : digits;
+    return `${fixed(value, own)} ± ${fixed(first, digits)}`;
   }
 
   const SVG = "http://www.w3.org/2000/svg";
