@@ -91,17 +91,25 @@ MOMENT = """(() => { const b = Beam.impact(Beam.START), p = Beam.problem(b, b.da
     return solver.simulate(p, Answer.runs(p).base).moment; })()"""  # in units of ℓ = EI = μ = V₀ = 1
 
 
+def marked(browser: Any) -> str:
+    """The stress beside the mark of the largest: with the digits that its bar allows."""
+    label = str(ask(browser, "document.querySelector('#plot-stress .mark + .name').textContent"))
+    return label.split(" MPa at ")[0]
+
+
 def test_damping_has_three_states_and_the_page_starts_with_the_tube(chromium: Any, address: str) -> None:
     browser = simulated(opened(chromium, address + "#damping_ratio="))
     curves = "document.querySelectorAll('#plot-stress .curve').length"
     assert ask(browser, curves) == 3 and "0.02 %" in shown(browser, "dampings")
     assert shown(browser, "stress") in shown(browser, "dampings")  # the headline is one of the three
+    assert marked(browser) == shown(browser, "stress").split(" ± ")[0]
     browser = simulated(opened(chromium, address + "#damping_ratio=0"))
     assert "band of" in shown(browser, "stress") and "bentbeam bounce" in shown(browser, "warnings")
     browser = simulated(opened(chromium, address))
     assert ask(browser, curves) == 1 and shown(browser, "dampings") == ""
     drawn = ask(browser, "[...document.querySelectorAll('#answer .plots path')].map(e => e.getAttribute('d').length)")
     assert len(drawn) >= 4 and min(drawn) > 60  # stress, force, impulse of the simulation and of the theory
+    assert marked(browser) == shown(browser, "stress").split(" ± ")[0]
     value, error = (float(word) for word in shown(browser, "stress").removesuffix(" MPa").split(" ± "))
     tube = load_case("cases/tube.toml")
     unit = tube.impact.velocity * math.sqrt(tube.impact.bending_stiffness * tube.impact.mass_per_length)

@@ -19,19 +19,32 @@ const Draw = (() => {
     return sign + written.replace("-", "");
   }
 
-  /** Both to the first digit of the error, to the second after a 1; a value within its error to two digits of its own,
-      unless it is less than a twentieth of it: as Python (bent_beam/measure/numbers.py). */
-  function bar(value, error) {
-    if (!(error > 0)) return `${text(value, 6)} ± ${text(error, 1)}`;
+  /** Value and error, and a power of ten of both: to the first digit of the error, to the second after a 1; a value
+      within its error to two digits of its own, unless it is less than a twentieth of it: as Python
+      (bent_beam/measure/numbers.py). */
+  function pair(value, error) {
+    if (!(error > 0)) return [text(value, 6), text(error, 1), ""];
     const starts1 = (size) => (size.toExponential(1).startsWith("1") ? 1 : 0);
     const first = Number(error.toExponential(starts1(error))), more = starts1(first);  // 0.096 becomes 0.10
     const power = Math.floor(Math.log10(Math.max(Math.abs(value), first)));
     const digits = more - Math.floor(Math.log10(first));
-    if (power >= 6 || power < -4)
-      return `(${bar(value / 10 ** power, first / 10 ** power)})·${text(10 ** power, 1).slice(2)}`;
+    if (power >= 6 || power < -4) {
+      const [written, size] = pair(value / 10 ** power, first / 10 ** power);
+      return [written, size, `·${text(10 ** power, 1).slice(2)}`];
+    }
     const size = Math.abs(value), within = 0.05 * first <= size && size < first;
     const own = within ? Math.max(digits, 1 - Math.floor(Math.log10(size))) : digits;
-    return `${fixed(value, own)} ± ${fixed(first, digits)}`;
+    return [fixed(value, own), fixed(first, digits), ""];
+  }
+  function bar(value, error) {
+    const [written, size, power] = pair(value, error);
+    return power ? `(${written} ± ${size})${power}` : `${written} ± ${size}`;
+  }
+  /** The value alone, to the digits that its bar allows; three while there is no bar. */
+  function within(value, error) {
+    if (error === null) return text(value, 3);
+    const [written, , power] = pair(value, error);
+    return written + power;
   }
 
   const SVG = "http://www.w3.org/2000/svg";
@@ -74,5 +87,5 @@ const Draw = (() => {
   }
   const path = (points) => points.map(([x, y], i) => `${i ? "L" : "M"}${x.toFixed(2)},${y.toFixed(2)}`).join("");
 
-  return { text, bar, draw, axes, path };
+  return { text, bar, within, draw, axes, path };
 })();

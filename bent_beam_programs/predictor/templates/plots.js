@@ -1,8 +1,8 @@
 "use strict";
 // Pictures of a whole impact: stress over time, force over time and over place, impulse of the first instants.
-// `shown`: [{run, kind}], a run of solver.js in its own units, and the colour of its damping.
+// `shown`: [{run, kind, bar}], a run of solver.js in its own units, the colour of its damping, the bar of its moment.
 const Plots = (() => {
-  const { draw, axes, path } = Draw, { find, unit, quantity } = Form;
+  const { draw, axes, path, within } = Draw, { find, unit, quantity } = Form;
   const HEIGHT = 210, LEFT = 56; // px
   const DECADES = 3, COLUMNS = 360; // of the colours of the force over place; of its picture
   const MEANS = 36; // of the force on a rigid wall
@@ -32,20 +32,23 @@ const Plots = (() => {
     return made;
   }
 
-  /** Largest stress anywhere in the beam over time, of each damping; the largest of all marked. */
+  /** Largest stress anywhere in the beam over time, of each damping; the largest of all marked, to the digits of its
+      bar, as far as it is there. */
   function stress(shown, b, scales) {
     const svg = find("#plot-stress"), of = (moment) => Beam.stress(b, moment * scales.moment);
     const curves = shown.map(({ run, kind }) => (
       { kind, points: run.frames.map(({ t, worst }) => [t * scales.time, of(worst)]) }));
-    const top = shown.reduce((a, c) => (c.run.moment > a.run.moment ? c : a)).run, time = top.time * scales.time;
+    const { run: top, bar } = shown.reduce((a, c) => (c.run.moment > a.run.moment ? c : a));
+    const time = top.time * scales.time;
     const end = largest(shown.map(({ run }) => run.until)) * scales.time;
     const high = Math.max(highest(curves), of(top.moment));
     const { x, y, width } = chart(svg, { end, high, name: "stress", label: "Largest stress" }, curves);
     if (top.restitution === null && top.late.moment) return; // it still grows
     const [cx, cy] = [x(time), y(of(top.moment))], right = cx < 0.6 * width;
+    const [symbol, size] = unit("stress"), error = bar === null ? null : bar * scales.moment / b.modulus / size;
     draw(svg, "circle", { cx, cy, r: 4.5, class: "mark" });
     draw(svg, "text", { x: cx + (right ? 8 : -8), y: cy - 5, "text-anchor": right ? "start" : "end", class: "name" },
-      `${quantity("stress", of(top.moment))} at ${quantity("time", time, 3)}`);
+      `${within(of(top.moment) / size, error)} ${symbol} at ${quantity("time", time, 3)}`);
   }
 
   const contactEnd = ({ run }) => (run.lastContact ? Math.min(1.04 * run.lastContact, run.until) : run.until);

@@ -63,7 +63,8 @@
     of.numbers[index] = numbers;
     of.whole[index] = Boolean(whole);
     if (!picture) working = of.problems.some((_, i) => !of.whole[i]);
-    if (run) { show(of); plot(of); }
+    if (run) show(of);
+    plot(of);
     tell(of);
     Object.assign(state, { of: of.id, state: picture ? "first" : working ? "working" : "done" });
     if (picture) state.first = Math.round(performance.now() - of.typed); // ms
@@ -126,9 +127,9 @@
     find("#warnings").replaceChildren(...said.map((sentence) => element("p", {}, sentence)));
   }
 
-  function plot({ runs, b, scales, theory, ratios }) {
+  function plot({ runs, numbers, b, scales, theory, ratios }) {
     const kinds = ratios[0] === null ? [""] : ["little", "some", "much"];
-    const shown = runs.map((run, i) => ({ run, kind: kinds[i] })).filter(({ run }) => run);
+    const shown = runs.map((run, i) => ({ run, kind: kinds[i], bar: numbers[i].moment.bar })).filter(({ run }) => run);
     Plots.stress(shown, b, scales);
     Plots.force(shown, scales);
     Plots.places(shown[0], scales);
