@@ -43,6 +43,15 @@ def test_the_page_doubts_a_damping_and_a_wall_as_bentbeam_does() -> None:
     assert doubted == [words[0]] * 2 + [words[1]] * 2 + [words[2]]
 
 
+def test_a_last_contact_within_its_bar_is_told() -> None:
+    expression = """given.map((bar) => {
+        const b = Beam.impact(Beam.START), one = {bar: 0, value: 1}, numbers = {restitution: one, moment: one, force: one};
+        return Words.warnings(b, {...numbers, lastContact: {bar, value: 0.5}}, Beam.problem(b, 0.01), true).join(" "); })"""
+    sure, unsure = evaluated(expression, [0.4, 0.6])
+    for part in ("nearly touches the wall once more", "hermite.refine=2"):
+        assert part in unsure and part not in sure
+
+
 def test_an_axial_force_alone_neither_brings_the_beam_back_nor_keeps_it_on_the_wall() -> None:
     """What holds the bow against it cancels it, as in `Impact.net_load`; a load of a billionth of it counts."""
     tensions = 10.0 ** np.random.default_rng(31).uniform(1.0, 3.5, 40)

@@ -42,9 +42,10 @@ const Words = (() => {
   const percent = (ratio) => `${text(100 * ratio, 2)} %`;
 
   /** What a reader must know of the numbers; whole: whether every bar is there. */
-  function warnings(b, { restitution, moment, force }, problem, whole) {
+  function warnings(b, { restitution, moment, force, lastContact = {} }, problem, whole) {
     const wide = (one, least = 0) => one.bar > DOUBTS.wide * Math.max(Math.abs(one.value), least);
     const settled = Answer.converges(problem), wides = whole && settled && (wide(moment) || wide(restitution, DOUBTS.least_restitution));
+    const late = whole && settled && lastContact.bar > lastContact.value;
     const pressed = Answer.net(problem) > 0, back = restitution.value !== null && pressed;
     const pull = b.tension * b.length ** 2 / (Math.PI ** 2 * b.stiffness); // over the buckling load
     const bends = pull > 0 ? "straightens it" : "bends it further";
@@ -55,7 +56,8 @@ const Words = (() => {
       [!settled, "Without damping the outcome is irregular and does not converge: a band is given."],
       [!settled, `${COMMAND} takes more runs for it.`],
       [wides, "The bars are wide: elements, steps and contact law decide here."],
-      [wides, `${COMMAND} --set hermite.refine=2 takes finer elements.`],
+      [late, "The beam nearly touches the wall once more: if it does, the last contact comes much later and the rebound may change by more than its bar."],
+      [wides || late, `${COMMAND} --set hermite.refine=2 takes finer elements.`],
       [!b.shear, "Short waves are faster without shear; this page takes few elements, and its bars count that."],
       [whole && restitution.value === null, (pressed ? "The loads keep the beam on the wall" : "A run ended with the beam at the wall") + ": no restitution is given."],
       [whole && (moment.value === null || force.value === null), "A largest value still rises when the run ends: it is not given."],
