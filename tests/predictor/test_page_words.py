@@ -45,8 +45,9 @@ def test_the_page_doubts_a_damping_and_a_wall_as_bentbeam_does() -> None:
 
 def test_a_last_contact_within_its_bar_is_told() -> None:
     expression = """given.map((bar) => {
-        const b = Beam.impact(Beam.START), one = {bar: 0, value: 1}, numbers = {restitution: one, moment: one, force: one};
-        return Words.warnings(b, {...numbers, lastContact: {bar, value: 0.5}}, Beam.problem(b, 0.01), true).join(" "); })"""
+        const b = Beam.impact(Beam.START), one = {bar: 0, value: 1}, lastContact = {bar, value: 0.5};
+        const numbers = {restitution: one, moment: one, force: one, lastContact};
+        return Words.warnings(b, numbers, Beam.problem(b, 0.01), true).join(" "); })"""
     sure, unsure = evaluated(expression, [0.4, 0.6])
     for part in ("nearly touches the wall once more", "hermite.refine=2"):
         assert part in unsure and part not in sure
