@@ -99,6 +99,7 @@ def _tables_of_paths(tables: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
 
 def case_from_tables(tables: Mapping[str, Any]) -> Case:
     """A case from the tables of a TOML file. Raises :class:`InputError` with one line naming field and value."""
+    others = _tables_of_paths(tables)  # first: a misspelt table is also a missing one
     for name in ("beam", "impact"):
         if name not in tables:
             raise InputError(f"{name} is required")
@@ -107,7 +108,6 @@ def case_from_tables(tables: Mapping[str, Any]) -> Case:
     beam = made_from(BeamTable, tables["beam"], "beam")
     arrival = made_from(ImpactTable, tables["impact"], "impact")
     wall = made_from(WallTable, tables.get("wall", {}), "wall")
-    others = _tables_of_paths(tables)
     section = None if tables.get("section") is None else part_from_table(SECTIONS, tables["section"], "section")
     try:
         impact = impact_of(beam, arrival, wall, section)

@@ -108,9 +108,7 @@ def predict(
 
     with progress(f"the whole beam: {case.name}", quiet or as_json or theory_only) as bar:
         found = predict_case(loaded, times, theory_only=theory_only, store=RunStore.usual(fresh), progress=bar.fraction)
-    emit(found.to_dict(), as_json, lambda: str(found))
-    if out is not None:
-        found.write(out)  # after the answer, which a full disk must not cost
+    options.emit_with_files(found.to_dict(), as_json, lambda: str(found), out, found.write)
 
 
 def simulate(

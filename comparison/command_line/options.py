@@ -144,6 +144,22 @@ def emit(document: Any, as_json: bool, text: Callable[[], str]) -> None:
         print(printable(text()))
 
 
+def emit_with_files(
+    document: Any, as_json: bool, text: Callable[[], str], out: Path | None, write: Callable[[Path], Any]
+) -> None:
+    """Write the files of an answer, then :func:`emit` it: a reader who has read enough (``| head``) ends the program.
+    Raises :class:`InputError` for files that cannot be written once the answer, which they must not cost, is out."""
+    problem: Exception | None = None
+    if out is not None:
+        try:
+            write(out)
+        except (OSError, ValueError) as error:
+            problem = error
+    emit(document, as_json, text)
+    if problem is not None:
+        raise InputError(f"--out: {problem}") from problem
+
+
 def printable(text: str) -> str:
     """``text`` without control characters, which a name from a file could send to the terminal."""
     return "".join(c if c.isprintable() or c == "\n" else c.encode("unicode_escape").decode() for c in text)

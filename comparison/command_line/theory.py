@@ -94,11 +94,13 @@ def match(
     with progress(f"{len(asked)} rows", quiet) as bar:
         store, told = RunStore.usual(fresh), bar.count
         rows = match_all(asked, store=store, jobs=jobs, scheduler=scheduler, limit=limit, progress=told)
-    emit(rows.to_dict(), as_json, lambda: str(rows))
-    if out is not None:
+
+    def write(folder: Path) -> None:
         from comparison.figures.matching import write_match
 
-        write_match(rows, out)  # after the answer, which a full disk must not cost
+        write_match(rows, folder)
+
+    options.emit_with_files(rows.to_dict(), as_json, lambda: str(rows), out, write)
     end_of_rows(rows)
 
 

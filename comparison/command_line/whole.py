@@ -158,7 +158,5 @@ def sweep(
     how = {"assignments": assignments or (), "scheduler": scheduler, "fresh": fresh}
     with progress(f"{rows} rows", quiet) as bar:
         found = sweep_all(case, asked, path, jobs=jobs, progress=bar.count, **how)  # type: ignore[arg-type]
-    emit(found.to_dict(), as_json, lambda: str(found))
-    if out is not None:
-        found.write(out)  # after the answer, which a full disk must not cost
+    options.emit_with_files(found.to_dict(), as_json, lambda: str(found), out, found.write)
     end_of_rows(found.rows)

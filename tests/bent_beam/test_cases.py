@@ -173,6 +173,7 @@ def test_damping_ratio_and_loss_factor_are_the_same_time_constant():
         ({"beam": BOW | {"length": "40cm"}}, r"^beam.length must be a finite number in m, .*without its unit .*'40cm'"),
         ({"beam": BOW | {"damping_ratio": "1 %"}}, r"finite number, with a decimal point and without its unit .*'1 %'"),
         ({"impact": None}, "impact is required"),
+        ({"impact": None, "impcat": {}}, r"impcat is not a known setting \(did you mean impact\?\)"),
         ({"meshh": {}}, r"meshh is not a known setting \(did you mean mesh\?\)"),
         ({"mesh": {"element_length": 1.0}}, "mesh.kind is required"),
         ({"run": {"end_time": 1.0, "duration": 1.0}}, "exclude each other"),

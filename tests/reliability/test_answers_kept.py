@@ -18,7 +18,7 @@ from bent_beam import method as methods
 from bent_beam.measure.reduction import peak_moment
 from comparison.command_line import __main__ as start
 from comparison.command_line import app, histories
-from comparison.command_line.options import emit
+from comparison.command_line.options import emit, emit_with_files
 from comparison.matching import PERTURBATION, match
 from comparison.rows import MatchQuestion, first_order_epsilon
 from comparison.store import RunStore, code_of, source_digest, source_of
@@ -49,6 +49,13 @@ def test_a_full_disk_under_out_costs_the_files_and_no_answer(monkeypatch):
     monkeypatch.setattr(methods, "_found", lambda: {"theirs": SimpleNamespace(load=lambda: Plain)})
     code, out, err = command(*MATCH, "--out", "out", "--json")
     assert code == 2 and len(json.loads(out)["rows"]) == 1 and "No space left" in err
+
+
+def test_files_are_written_before_an_answer_that_nobody_reads_on(tmp_path):
+    written = Mock()
+    with pytest.raises(BrokenPipeError):
+        emit_with_files({}, False, Mock(side_effect=BrokenPipeError), tmp_path, written)
+    written.assert_called_once_with(tmp_path)
 
 
 def test_a_terminal_without_greek_letters_gets_the_answer(monkeypatch):
