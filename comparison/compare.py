@@ -21,6 +21,20 @@ from comparison.readable import milliseconds, shown, text_table, unit_for
 CURVES = ("total_impulse", "kinetic_energy", "strain_energy")
 
 
+class Short(Repr):
+    """Values as a table has room for: a mesh may name all its nodes, each to its last digit."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.maxlist, self.maxstring, self.maxother = 4, 60, 60
+
+    def repr_float(self, value: float, level: int) -> str:
+        return repr(float(f"{value:.6g}"))
+
+
+SHORT = Short()
+
+
 def compare_histories(a: ImpactHistory, b: ImpactHistory) -> dict[str, Any]:
     """What two histories have in common and what not; SI units.
 
@@ -109,26 +123,28 @@ def comparison_text(found: dict[str, Any], first: str, second: str) -> str:
         f"Numbers at the end of the common time, {milliseconds(min(found['end']['time']))}. Differences: the largest",
         "over the curve, as a share of the first run's largest value. Energies are those of the part of the beam that",
         "a run models; kinetic energies of unlike parts have no difference.",
-        "The two impacts are the same." if found["same_impact"] else "The two impacts differ.",
+        "Both runs are of the same case." if found["same_impact"] else "The runs are of two cases that differ.",
     ]
     changed = [row for part in ("impact", "settings", "versions") for row in _changed(found[part])]
-    return "\n".join([*lines, "", text_table(["what differs", first, second], changed)] if changed else lines)
+    return "\n".join(
+        [*lines, "", text_table(["what differs", first, second], changed, (0, 1, 2))] if changed else lines
+    )
 
 
 def _changed(pairs: dict[str, Any], where: str = "") -> list[list[str]]:
     """A row for each entry that differs; entries of tables by their full name."""
-    short = Repr()
-    short.maxlist, short.maxstring, short.maxother = 4, 60, 60  # a mesh may name all its nodes
     rows = []
     for key, (a, b) in pairs.items():
-        if isinstance(a, dict) and isinstance(b, dict):
-            rows += _changed(_apart(a, b), f"{where}{key}.")
-        elif short.repr(a) == short.repr(b) and isinstance(a, (str, list, tuple)):
+        alike = SHORT.repr(a) == SHORT.repr(b)
+        if all(one is None or isinstance(one, dict) for one in (a, b)):
+            rows += _changed(_apart(a or {}, b or {}), f"{where}{key}.")
+        elif alike and isinstance(a, (str, list, tuple)):
             at = next((i for i, (x, y) in enumerate(zip(a, b)) if x != y), min(len(a), len(b)))
             rest = {f"{key}[{at}:]": [a[at:], b[at:]]} if at else {f"{key}[0]": [a[0], b[0]]}  # they begin unlike
             rows += _changed(rest, where)
         else:
-            rows.append([f"{where}{key}", *("-" if v is None else short.repr(v).strip("'") for v in (a, b))])
+            text = repr if alike else SHORT.repr
+            rows.append([f"{where}{key}", *("-" if v is None else text(v).strip("'") for v in (a, b))])
     return rows
 
 

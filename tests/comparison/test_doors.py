@@ -180,16 +180,18 @@ def test_what_differs_far_down_or_late_is_told_by_its_full_name_from_where_it_di
     at, half = list(range(20)), 90 * "a"
     meshes = [{"mesh": {"at": nodes}, "save": at[:n]} for nodes, n in ((at, 10), ([*at[:9], 9.5, *at[10:]], 12))]
     pairs = {"far": meshes, "named": [f"{half}one{half}", f"{half}two{half}"], "hold": [None, 2],
-             "nested": [[[*range(6)], at], [[*range(5), 7], at]]}  # fmt: skip
+             "nested": [[[*range(6)], at], [[*range(5), 7], at]],
+             "own": [None, {"step": 1.0 / 3.0}], "last": [[0.1, 0.2], [0.1, 0.2 + 3e-17]]}  # fmt: skip
     slow = Impact.dimensionless(0.5)
     one, other = (history_of([0.0, end], at, impact=slow.replace(velocity=end)) for end in (1.0, 2.0))
     said = " ".join(comparison_text(compare_histories(one, other) | {"settings": pairs}, "A", "B").split())
     for part in ("far.mesh.at[9:] [9, 10, 11, 12, ...] [9.5, 10, 11, 12, ...]", "far.save[10:] [] [10, 11]", "hold - 2",
-                 "nested[0][5:] [5] [7]", "named[90:] one", "velocity 1.0 2.0", "two impacts differ.",
+                 "nested[0][5:] [5] [7]", "named[90:] one", "velocity 1.0 2.0", "own.step - 0.333333",
+                 "last[1:][0] 0.2 0.20000000000000004", "of two cases that differ.",
                  "end of the run 1000 2000 ms", "common time, 1000 ms."):  # fmt: skip
         assert part in said
     said = comparison_text(compare_histories(one, one), "A", "B")
-    assert "two impacts are the same." in said and "what differs" not in said
+    assert "Both runs are of the same case." in said and "what differs" not in said
 
 
 @pytest.mark.verify
