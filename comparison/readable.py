@@ -34,8 +34,8 @@ LIMITS = {
     "damping": "the contact spreads, for which material damping has no closed form",
     "hysteretic loss": "the stiffness grows with the frequency, for which there is no closed form",
     "slope": "slopes are no longer small",
-    "shear": "shear deformation matters for as long as its other limits allow",
-    "wall": "the wall gives way for as long as its other limits allow",
+    "shear": "reflections from the ends, loads, damping or slopes end it before shear deformation ceases to matter",
+    "wall": "reflections from the ends, loads, damping or slopes end it before the wall acts as a rigid one",
     "section": "the section yields",
 }
 BEFORE = {"shear": "shear deformation matters; for the reaction twice as long", "wall": "the wall gives way"}
