@@ -91,8 +91,8 @@ def bounce(
     separation_times(impact)  # refuses what no separation ends
     if not hasattr(method, "for_whole_beam"):
         raise InputError(
-            f"path: {method.path} lacks for_whole_beam(impact), which chooses for a whole beam what it leaves open "
-            "(nothing open: return self; docs/guide/add-method.md)"
+            f"path: {method.path} follows no whole impact: take hermite or exudyn (in its code {method.path} lacks "
+            "for_whole_beam(impact), docs/guide/add-method.md)"
         )
     ensemble = case.damping_stated and not converges(impact)
     for name, value in (("runs", runs), ("seed", seed)):

@@ -18,6 +18,14 @@ from self_similar_fe.run import simulate_expanding
 MODELLED = ("acceleration", "curvature_rate", "fourth_derivative", "axial_force")
 """The loads that :mod:`self_similar_fe.run` models."""
 
+BREAKS = {
+    "damping": "set beam.damping = 0",
+    "rotation": "set impact.rotation = 0",
+    "first_touch": "set impact.first_touch = 0",
+    "opposite_wall": "leave wall.opposite out",
+}
+"""What leaves no motion that is always the same over √t, and what to do without it."""
+
 
 @dataclass(frozen=True)
 class SelfSimilarFE(Part):
@@ -45,9 +53,10 @@ class SelfSimilarFE(Part):
 
     def refuses(self, impact: Impact) -> str | None:
         """Why this method cannot take ``impact``, naming the field (``None``: it can)."""
-        for name in ("damping", "rotation", "first_touch", "opposite_wall"):
-            if getattr(impact, name):
-                return f"{name} breaks the self-similarity that this path rests on (got {getattr(impact, name)!r})"
+        for name, instead in BREAKS.items():
+            if value := getattr(impact, name):
+                why = f"{name} breaks the self-similarity that this path rests on (got {value:.4g})"
+                return f"{why}: {instead}, or take the path hermite or exudyn"
         if impact.relative_curvature == 0.0:
             return "curvature must be positive: a flat beam meets the wall everywhere at once (got 0.0)"
         return unmodelled(impact, MODELLED)

@@ -135,6 +135,12 @@ REFUSED = [
 ]  # fmt: skip
 
 
+def test_what_breaks_self_similarity_is_refused_with_what_to_do_instead():
+    """A damping ratio becomes a time that nobody has typed."""
+    damped = Impact.dimensionless(0.5).replace(damping=1e-3 / 7.0)
+    assert "(got 0.0001429): set beam.damping = 0, or take the path hermite" in (SelfSimilarFE().refuses(damped) or "")
+
+
 @pytest.mark.parametrize(("made", "said"), REFUSED, ids=[said for _, said in REFUSED])
 def test_what_breaks_self_similarity_or_is_impossible_is_refused_by_name(made, said):
     with pytest.raises(ValueError, match=said):
