@@ -184,7 +184,7 @@ def _check_arrangement(impact: Impact) -> None:
         raise InputError(f"first_touch, the place of a bow's apex, has no effect on a straight beam (got {touch!r})")
     if impact.wall_curvature and impact.wall_curvature >= impact.curvature:
         raise InputError(
-            f"wall_curvature must be less than the beam's curvature {impact.curvature!r}, or no point touches first "
+            f"wall_curvature must be less than the beam's curvature {impact.curvature:.6g}, or no point touches first "
             f"(got {impact.wall_curvature!r})"
         )
     if impact.opposite_wall is not None:  # behind the bow K s²/2 − q₀ s⁴/24 at the start

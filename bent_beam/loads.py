@@ -89,7 +89,8 @@ def unmodelled(impact: Part, modelled: Collection[str]) -> str | None:
     for field in dataclasses.fields(impact):
         value, quantity = getattr(impact, field.name), about[field.name].quantity
         if isinstance(quantity, Feature) and field.name not in modelled and value != field.default:
-            return f"{field.name} is not modelled by this method (got {value!r}){quantity.instead}"
+            got = repr(float(f"{value:.6g}")) if isinstance(value, float) else repr(value)  # it may be computed
+            return f"{field.name} is not modelled by this method (got {got}){quantity.instead}"
     return None
 
 

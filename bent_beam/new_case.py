@@ -11,13 +11,13 @@ SECTION_LINES = {
 wall_thickness = 0.00919    # m (or inner_diameter)
 # fluid_density = 1200.0    # kg/m³, what fills it
 """,
-    "round_bar": "diameter = 0.02              # m\n",
+    "round_bar": "diameter = 0.02             # m\n",
     "rectangle": """width = 0.03                # m
 thickness = 0.001           # m, in the plane of bending
 """,
-    "general": """area_of_section = 7.686e-3      # m² (rail 60E1)
+    "general": """area_of_section = 7.686e-3  # m² (rail 60E1)
 second_moment_of_area = 3.038e-5  # m⁴
-section_height = 0.172          # m
+section_height = 0.172      # m
 """,
 }
 
@@ -33,14 +33,14 @@ yield_stress = 7.24e8       # Pa; leave out when not of interest
 # added_mass = 5.0          # kg/m, mass outside that moves with the beam
 
 [beam]
-length = {length}               # m, of the whole beam
-sagitta = {sagitta}             # m, height of the bow over its length (or curvature, 1/m, or dogleg, degrees in 30 m)
+length = {length:<18} # m, of the whole beam
+sagitta = {sagitta:<17} # m, height of the bow over its length (or curvature, 1/m, or dogleg, degrees in 30 m)
 # axial_force = 50e3        # N, tension positive, along x (or tension_direction = "tangent": along the bow)
 damping_ratio = {damping}  # of the first bending mode (or damping, s, or loss_factor at loss_frequency)
 # without this line there are answers for 0.0002, 0.002 and 0.02; that of the largest stress counts
 
 [impact]
-velocity = {velocity}              # m/s towards the wall (or drop_height, m; angular_speed; amplitude and frequency)
+velocity = {velocity:<16} # m/s towards the wall (or drop_height, m; angular_speed; amplitude and frequency)
 # gravity = 9.81            # m/s², with gravity_angle = 0.0 degrees onto a floor, 90.0 onto an upright wall
 
 # [wall]

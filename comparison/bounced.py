@@ -14,7 +14,7 @@ from bent_beam.measure.whole_impact import SHORTEST_SEPARATION, WINDOW, WholeImp
 from bent_beam.method import LONGEST_OF_WALL, ON_WALL, settings_of, time_on_wall
 from bent_beam.versions import versions
 from comparison.doubts import doubts, energy_residual, numerical_loss, told_by
-from comparison.readable import write_answer
+from comparison.readable import folder, write_answer
 from comparison.runs import Runs
 from comparison.texts import bounce_text
 from comparison.whole_numbers import MAY_RISE, WHOLE
@@ -231,7 +231,7 @@ class Bounce:
         """
         from comparison.figures.history import animate
 
-        film = animate(self.history, Path(out) / "bounce.gif", self._shown_until)
+        film = animate(self.history, folder(out) / "bounce.gif", self._shown_until)
         return [*write_answer(self, out, "bounce", document=document), film]
 
     @property

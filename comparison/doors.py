@@ -20,7 +20,7 @@ from comparison.matching import Matched
 from comparison.matching import match as match_all
 from comparison.methods import PATHS, check_effect
 from comparison.predicting import PredictedCase, predict_case
-from comparison.readable import csv_text, write_answer
+from comparison.readable import csv_text, folder, write_answer
 from comparison.rows import THESIS_KAPPAS, questions
 from comparison.store import RunStore
 from comparison.sweeping import Row, SweepTable, cases_of, never_leaves, row_of, varied_from
@@ -37,6 +37,9 @@ def predict(beam: Beam, *times: float, theory_only: bool = False, fresh: bool = 
     """
     case = case_of(beam)
     for time in times:
+        if isinstance(time, (Sequence, np.ndarray)):
+            got = shortened(time)
+            raise InputError(f"times must be a finite number each: predict(case, 0.001, 0.002), no list (got {got})")
         finite("times", time)
     return predict_case(case, times or (case.end_time,), theory_only=theory_only, store=RunStore.usual(fresh))
 
@@ -90,7 +93,7 @@ class Swept(SweepTable):
 
     def write(self, out: str | Path) -> list[Path]:
         """``sweep.json``, ``sweep.csv``, ``sweep.nc`` and, where it can be drawn, ``sweep.png``; returns the files."""
-        table, grid = Path(out) / "sweep.csv", Path(out) / "sweep.nc"
+        table, grid = (folder(out) / f"sweep.{kind}" for kind in ("csv", "nc"))
         write_atomically(table, csv_text(row.to_dict() for row in self.rows))
         write_dataset(self.to_dataset(), grid)
         drawable = len(self.vary) <= 2 and any(row.numbers for row in self.rows)

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from bent_beam.as_json import json_text, plain
+from bent_beam.errors import InputError
 from bent_beam.files import write_atomically
 from bent_beam.measure.numbers import Band, Number
 from comparison.whole_numbers import HIT
@@ -157,13 +158,21 @@ def csv_text(documents: Iterable[Mapping[str, Any]]) -> str:
     return stream.getvalue()
 
 
+def folder(out: str | Path) -> Path:
+    """Where files are to be written. Raises :class:`InputError` where that is a file."""
+    out = Path(out)
+    if out.exists() and not out.is_dir():
+        raise InputError(f"out must be a folder, and {out} is a file")
+    return out
+
+
 def write_answer(
     found: Any, out: str | Path, name: str, drawable: bool = True, document: dict[str, Any] | None = None
 ) -> list[Path]:
     """Document and figure of an answer in ``out``; returns the files. A figure of an earlier answer does not stay."""
     from comparison.figures import style
 
-    out = Path(out)
+    out = folder(out)
     file = out / f"{name}.json"
     write_atomically(file, json_text(document or found.to_dict(), indent=1) + "\n")
     if not drawable:

@@ -87,13 +87,13 @@ def varied_from(text: str) -> tuple[str, list[Any]]:
     words = given.split(",")
     if "." not in key or not all(word.strip() for word in words):
         raise InputError(f"--vary takes TABLE.KEY=A:B:N or TABLE.KEY=A,B,C (got {shortened(text)})")
-    ends = given.split(":")
-    if len(ends) != 3:
+    ends = [value_of(word) for word in given.split(":")]
+    if len(ends) == 1 or (len(ends) != 3 and not numeric(ends)):  # a name may hold colons
         return key, [value_of(word) for word in words]
-    first, last, count = map(value_of, ends)
-    if isinstance(first, str) or isinstance(last, str) or not isinstance(count, int) or not 2 <= count <= MOST:
-        raise InputError(f"--vary {key}: A:B:N are two numbers and how many values, from 2 on (got {shortened(given)})")
-    return key, [float(f"{value:.12g}") for value in np.linspace(first, last, count)]  # as one would type them
+    if len(ends) != 3 or not numeric(ends) or not isinstance(ends[2], int) or not 2 <= ends[2] <= MOST:
+        forms = "A:B:N, two numbers and how many values, from 2 on, or A,B,C"
+        raise InputError(f"--vary {key} takes {forms} (got {shortened(given)})")
+    return key, [float(f"{value:.12g}") for value in np.linspace(*ends)]  # as one would type them
 
 
 def cases_of(
@@ -102,10 +102,14 @@ def cases_of(
     """Each combination of the values of ``vary`` (``table.key`` → values), the last key varying fastest, and what it
     laid over a case's ``tables`` makes. Raises :class:`InputError` where none of them is a case, and for a key without
     effect on any."""
+    if not vary:
+        raise InputError("vary: nothing is varied: give at least one key with its values")
     count = int(np.prod([len(values) for values in vary.values()]))
-    if not vary or not 1 <= count <= MOST:
-        raise InputError(f"vary: takes at least one key with values, and {MOST} rows at most (got {count} rows)")
+    if count > MOST:
+        raise InputError(f"vary: {MOST} rows at most (got {count} rows)")
     for key, values in vary.items():
+        if len(values) == 0:
+            raise InputError(f"vary: {key} has no values (got {shortened(list(values))})")
         if len({float(value) if numeric([value]) else str(value) for value in values}) < len(values):
             raise InputError(f"vary: {key} has a value twice (got {shortened(list(values))})")
     combinations = [dict(zip(vary, values)) for values in product(*vary.values())]

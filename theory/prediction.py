@@ -186,7 +186,7 @@ def _check(impact: Impact) -> None:
         raise ValueError(reason)
     if not impact.relative_curvature > 0.0:
         raise ValueError(
-            f"curvature must be more than the wall's (got {impact.curvature!r}): a beam as straight as its wall has "
+            f"curvature must be more than the wall's (got {impact.curvature:.6g}): a beam as straight as its wall has "
             "kappa/nu = 0, touches over its whole length at once, and lambda0 is infinite"
         )
     for name in ("rotation", "first_touch"):

@@ -152,9 +152,11 @@ def sweep(
 
     check_writable(out, folder=True)
     keys = [varied_from(text) for text in vary]
-    asked, rows = dict(keys), prod(len(values) for _, values in keys)
-    if len(asked) < len(keys):
-        raise InputError("--vary: a key is given twice")
+    asked, rows = dict[str, list[Any]](), prod(len(values) for _, values in keys)
+    for key, values in keys:
+        if key in asked:
+            raise InputError(f"--vary {key} is given twice; leave one of them out")
+        asked[key] = values
     how = {"assignments": assignments or (), "scheduler": scheduler, "fresh": fresh}
     with progress(f"{rows} rows", quiet) as bar:
         found = sweep_all(case, asked, path, jobs=jobs, progress=bar.count, **how)  # type: ignore[arg-type]

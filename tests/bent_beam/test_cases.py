@@ -223,7 +223,9 @@ def test_every_case_file_loads_the_thesis_sweep_is_complete_and_the_other_beams_
 @pytest.mark.parametrize("kind", ["pipe", "round_bar", "rectangle", "general"])
 def test_a_new_case_can_be_used_once_its_damping_is_stated(kind, tmp_path):
     file = tmp_path / "mine.toml"
-    file.write_text(new_case(kind))
+    file.write_text(text := new_case(kind))
+    marks = [line.index("  # ") for line in text.split("\n") if "  # " in line and len(line.partition("  # ")[0]) < 30]
+    assert set(marks) == {marks[0]}  # comments stand below each other
     with pytest.raises(InputError, match=r"beam\.damping_ratio .*0\.0002 bare steel, 0\.002 as held"):
         load_case(file)
     file.write_text(new_case(kind, 0.01))

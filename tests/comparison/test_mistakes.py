@@ -12,6 +12,8 @@ from bent_beam.cases import EXAMPLES, load_case
 from bent_beam.meshes import UniformMesh
 from bent_beam.method import method_from_tables
 from comparison import bounce, match, predict, sweep
+from comparison.methods import methods_from_file
+from comparison.readable import folder
 from exudyn_models import ExudynModel
 from hermite_fe import HermiteFE
 from hermite_fe.contacts import NodeContact, element_rows
@@ -53,7 +55,11 @@ class Mute(MoreauJean):
         (lambda: match(HermiteFE(), kappa_over_nu=[0.5], refine=[1.0, 1.0]), "refine has a value twice"),
         (lambda: sweep({}, {"impact.velocity": 3.0}), r"impact.velocity takes its values in a list, .*\(got 3.0\)"),
         (lambda: sweep(TUBE, {"impact.velocity": [1.0, float("nan")]}), "vary: impact.velocity must be"),
-        (lambda: predict(TUBE, [0.001, 0.002]), "times must be a finite number"),
+        (lambda: sweep(TUBE, {}), "nothing is varied"),
+        (lambda: sweep(TUBE, {"impact.velocity": []}), r"vary: impact.velocity has no values \(got \[\]\)"),
+        (lambda: predict(TUBE, [0.001, 0.002]), r"times must be a finite number each: predict\(case, 0.001, 0.002\)"),
+        (lambda: methods_from_file(TUBE), "tube.toml is a case file"),
+        (lambda: folder(TUBE), "out must be a folder, and .*tube.toml is a file"),
     ],
 )
 def test_a_mistake_of_extension_is_one_sentence_that_says_what_to_write(made, said):
