@@ -7,7 +7,7 @@ moment, so of the largest stress.
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
@@ -27,6 +27,7 @@ from bent_beam.method import LONGEST_OF_WALL, ON_WALL, Method, for_whole_beam, s
 from comparison.bounced import Bounce
 from comparison.doubts import energy_at_end
 from comparison.questions import SEED, Progress, Question
+from comparison.readable import milliseconds
 from comparison.runs import Runs, bands_of, numbers_of, runs_of, unseen_of_moment
 from comparison.store import RunStore
 from comparison.whole_numbers import FINAL, MAY_RISE, NUMBERS
@@ -38,6 +39,7 @@ TIMES = ("last_contact", "peak_moment_time")
 RUNS = 24  # of a band
 DAMPING_RATIOS = (0.0002, 0.002, 0.02)  # of the first mode: bare steel, a bar as it is held, with joints
 INSTANTS = 200  # saved a T* of a run that follows hits
+FLIGHTS = 50.0  # T* of flight under a load that count beside LONGEST_OF_WALL: a run saves 200 instants a T*
 RESTS = 10.0  # periods of the lowest mode: a hit that lasts longer is the last
 ABOUT = 0.002  # T*: moments so near the largest are as unsure as it is
 RETURNS = 2.0  # bars of the restitution: the mean velocity has one, waves move a point of the beam as much again
@@ -192,24 +194,46 @@ def _may_be_none(reading: Mapping[str, Any], restitution: Number) -> float:
 
 
 def follow_hits(impact: Impact, method: Method, count: int, *, first: ImpactHistory) -> list[Hit]:
-    """The first ``count`` hits of a beam on its wall by one run, fewer where it is not back within ``LONGEST_OF_WALL``
-    T* or comes to rest: a hit that is not over within :data:`RESTS` periods of the lowest mode, or in the time that
-    its wall needs to throw it off, is none.
+    """The first ``count`` hits of a beam on its wall by one run, fewer where it is not back in time
+    (:func:`followed_until`) or comes to rest: a hit that is not over within :data:`RESTS` periods of the lowest mode,
+    or in the time that its wall needs to throw it off, is none.
 
     first : the run that a first hit has been read from: the first row is its own.
     Raises ``ValueError`` for what the method refuses, and between two walls.
     """
     chosen, period = for_whole_beam(method, impact), LOWEST_PERIOD * impact.slow_time_scale
-    fall = impact.net_load / impact.mass_per_length  # acceleration back to the wall, m/s²
-    end, longest = 2.0 * period, LONGEST_OF_WALL * impact.slow_time_scale
-    at_rest = max(RESTS * period, ON_WALL * time_on_wall(impact))
+    end, at_rest = 2.0 * period, max(RESTS * period, ON_WALL * time_on_wall(impact))
     while True:
         run = chosen.simulate(impact, end_time=end, save=separation_times(impact, end, INSTANTS))
         found = hits(run)
         over = [hit for hit in found if end - hit.end >= period]
         rests = len(over) < len(found) and end - found[-1].begin >= at_rest
-        gone = over and fall <= 0.0 and not may_return(run)
+        gone = over and impact.net_load <= 0.0 and not may_return(run)
+        longest = followed_until(impact, over)
         if len(over) >= count or rests or end >= longest or gone:
             return [*hits(first)[:1], *over[1:count]] if over else []
-        flight = 2.0 * max(-over[-1].after, 0.0) / fall if over and fall > 0.0 else 0.0
+        flight = _flights(impact, over[-1:])
         end = min(max(2.0 * end, end + flight + 2.0 * period), longest)
+
+
+def _flights(impact: Impact, over: Sequence[Hit]) -> float:
+    """How long the loads need to bring a beam back after hits that are over, altogether, s; 0 without such loads."""
+    fall = impact.net_load / impact.mass_per_length  # acceleration back to the wall, m/s²
+    return sum(2.0 * max(-hit.after, 0.0) / fall for hit in over) if fall > 0.0 else 0.0
+
+
+def followed_until(impact: Impact, over: Sequence[Hit]) -> float:
+    """Until when a beam is followed after hits that are over, s: ``LONGEST_OF_WALL`` T* and its flights, of which
+    :data:`FLIGHTS` T* at most."""
+    unit = impact.slow_time_scale
+    return LONGEST_OF_WALL * unit + min(_flights(impact, over), FLIGHTS * unit)
+
+
+def why_no_more(impact: Impact, over: Sequence[Hit]) -> str:
+    """Why :func:`follow_hits` found no more hits than these, in words."""
+    until, back = followed_until(impact, over), over[-1].end + _flights(impact, over[-1:]) if over else 0.0
+    if impact.net_load <= 0.0:
+        return f"then the beam is off for good or is not back by {milliseconds(until)}"
+    if back + 2.0 * LOWEST_PERIOD * impact.slow_time_scale > until:
+        return f"then the beam is back at about {milliseconds(back)}, and it is followed until {milliseconds(until)}"
+    return "then the beam rests on its wall"

@@ -50,7 +50,6 @@ def bounce(
     paths = path or ["hermite"]
     asked = _asked(case, kappa_over_nu, damping, paths, assignments or ())
     check_writable(out, folder=True)
-    from bent_beam.method import LONGEST_OF_WALL
     from comparison import bouncing  # SciPy: no refusal above waits for it
     from comparison.readable import hits_table
     from comparison.whole_numbers import OF_ONE_WALL
@@ -71,9 +70,7 @@ def bounce(
         document["hits"] = rows
     fewer = []
     if hits > 1 and len(rows) < hits:
-        longest = 1e3 * LONGEST_OF_WALL * found.impact.slow_time_scale
-        then = f"then the beam is off for good, rests on its wall, or is not back by {longest:.3g} ms"
-        fewer = [f"{len(rows)} of {hits} hits: {then}"]
+        fewer = [f"{len(rows)} of {hits} hits: {bouncing.why_no_more(found.impact, followed)}"]
     document["warnings"] += fewer
     if out is not None:
         try:

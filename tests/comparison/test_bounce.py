@@ -16,8 +16,9 @@ from bent_beam.measure.numbers import Band, Number
 from bent_beam.measure.whole_impact import whole_impact
 from bent_beam.meshes import UniformMesh
 from bent_beam.method import LONGEST_OF_WALL, separation_times, simulate_to_separation, time_on_wall
-from comparison.bouncing import bounce, case_of, follow_hits, problem
+from comparison.bouncing import bounce, case_of, follow_hits, followed_until, problem, why_no_more
 from comparison.questions import Question
+from comparison.readable import milliseconds
 from comparison.store import RunStore
 from exudyn_models import ExudynModel
 from exudyn_models.integrators import Trapezoidal
@@ -142,7 +143,7 @@ def test_the_command_gives_numbers_with_bars_figures_and_the_stress_of_the_large
     assert 0.0 < found["restitution"]["value"] < 1.0 and found["left"]
     assert len(found["hits"]) == 1 and found["warnings"][-1].startswith("1 of 3 hits: then the beam is off for good")
     longest = 1e3 * LONGEST_OF_WALL * load_case(tmp_path / "rod.toml").impact.slow_time_scale
-    assert found["warnings"][-1].endswith(f"or is not back by {longest:.3g} ms")
+    assert found["warnings"][-1].endswith(f"for good or is not back by {longest:.3g} ms")
     momentum, modulus = 7850.0 * math.pi * 0.01**2 * 2.0, math.pi * 0.02**3 / 32.0
     impulse, restitution = found["si"]["impulse"]["value"], found["restitution"]["value"]
     assert impulse == pytest.approx(momentum * (1.0 + restitution), rel=1e-6)
@@ -190,6 +191,21 @@ def test_runs_whose_processes_die_are_told_and_one_that_is_left_is_no_band(monke
     found = bounce(problem(2.0, 0.0), HermiteFE(mesh=UniformMesh(0.1)), runs=3, jobs=2)
     assert sum(line.startswith("no companion run") and "the worker died" in line for line in found.warnings) == 2
     assert found.numbers["restitution"].value is None
+
+
+def test_a_flight_under_a_load_does_not_count_and_where_it_is_too_long_its_end_is_told(monkeypatch) -> None:
+    """2ev/a to the next hit: longer than the 5 T* to which a beam is followed here."""
+    monkeypatch.setattr("comparison.bouncing.LONGEST_OF_WALL", 5.0)
+    impact, few = problem(2.0, 0.02).replace(acceleration=0.15), HermiteFE(mesh=UniformMesh(0.1))
+    first, unit = bounce(impact, few).history, impact.slow_time_scale
+    one, two = follow_hits(impact, few, 2, first=first)
+    back = one.end - 2.0 * one.after / 0.15
+    assert two.begin == pytest.approx(back, rel=0.05) and two.begin > 5.0 * unit
+    assert followed_until(impact, [one]) == pytest.approx(5.0 * unit + back - one.end, rel=1e-12)
+    monkeypatch.setattr("comparison.bouncing.FLIGHTS", 0.5)
+    assert len(follow_hits(impact, few, 2, first=first)) == 1
+    said = f"is back at about {milliseconds(back)}, and it is followed until {milliseconds(5.5 * unit)}"
+    assert why_no_more(impact, [one]).endswith(said) and why_no_more(impact, []).endswith("rests on its wall")
 
 
 @pytest.mark.verify
