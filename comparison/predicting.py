@@ -159,6 +159,7 @@ class PredictedCase:
             "damping": self.case.impact.relative_damping,
             "warnings": self.warnings,
             "agreement": self.agreement,
+            "compared_from": rows[len(self.simulated)]["time"] if self.simulated and self.runs else None,
             "yield_stress": getattr(self.case.section, "yield_stress", None),
             "whole_impact": of_whole,
             "no_whole_impact": self.no_whole,

@@ -28,6 +28,8 @@ REGIMES = {
     "continuous": "The contact spreads: a zone with a concentrated force at each end.",
     "detached": "The contact is two points that move apart; the beam lifts off between them.",
 }
+SHORT_ZONE = "The contact stays short: at first a zone, as the beam shears, which shrinks to one point."
+"""In place of one point, of a beam that shears (docs/shear.md)."""
 LIMITS = {
     "waves back from the ends": "reflections from the beam's ends arrive",
     "first-order correction": "the loads change the contact by more than first order covers",
@@ -47,6 +49,25 @@ def beam_line(model: str, velocity: float, clearance: float = 0.0) -> str:
     """The beam that an answer is of, as a sentence, and the velocity, m/s, at which it touches the wall, or before one
     that is apart from it passes its rest position."""
     return f"{BEAMS[model]} It {'passes its rest position' if clearance else 'arrives'} at {readable(velocity)} m/s."
+
+
+def validity_text(document: dict[str, Any]) -> str:
+    """From when, until when and why no longer the theory holds."""
+    why, before = LIMITS[document["limited_by"]], BEFORE.get(document["valid_after"], "")
+    if not document["valid_until"]:
+        return f"The theory covers no time: {why}."
+    start = f"from {milliseconds(document['valid_from'])} (before, {before}) " if before else ""
+    lines = [f"The theory holds to 2 % {start}until {milliseconds(document['valid_until'])}: then {why}."]
+    if document["force_until"] < document["valid_until"]:
+        begin = milliseconds(max(document["force_until"], document["valid_from"]))
+        lines.append(f"From {begin} on it has no reaction: waves from the ends swing the force.")
+    loads = any(document[f"epsilon_{load}"] for load in ("alpha", "psi", "chi", "axial"))
+    acting = {"loads": loads, "shear": document["model"] == "timoshenko", "the wall's give": document["wall"]}
+    if left_out := [name for name, acts in acting.items() if acts]:
+        lines.append(f"Its moment leaves out {' and '.join(left_out)}.")  # it is of leading order
+    if acting["shear"] and (document["regime"] == "discrete" or document["damping"]):  # one point, as yet or for good
+        lines.append("Its half contact is within 2 % only without loads and damping.")
+    return "\n".join(lines)
 
 
 def readable(value: Any, digits: int = 4) -> str:

@@ -26,6 +26,7 @@ from theory import Prediction, predict
 from theory.validity import ENDS
 
 BAND = "without damping a whole impact is a band, which bentbeam bounce gives; one run has no number of it"
+OF_RUN = (*OF_WHOLE, "last_contact")  # numbers of a whole impact that a run to it has
 UNSTATED = "of a beam whose damping is not stated bentbeam bounce gives the whole impact at three damping ratios"
 
 
@@ -68,6 +69,7 @@ class Simulated:
             "half_contact_length": self._beside("half_contact_length", row.half_contact_length if row else None),
             "total_impulse": self._beside("impulse", row.impulse if row else None),
             "restitution": self._beside("restitution", None),
+            "last_contact": self._beside("last_contact", None),
             # constants of the theory: no number of the run stands beside them at a time at which it does not hold
             "lambda0": self._beside("lambda0" if row else "", infinite.lambda0 if infinite else None),
             "r0": self._beside("r0" if row else "", infinite.r0 if infinite else None),
@@ -162,7 +164,7 @@ def simulate_case(
         return Simulated(case, runs, runs.history, {})
     inner = runs.part(lambda reading: dict(reading["whole"]))
     whole = Bounce(case, whole_numbers(inner), inner)
-    found: dict[str, Any] = {name: number for name, number in whole.in_si.items() if name in OF_WHOLE}
+    found: dict[str, Any] = {name: number for name, number in whole.in_si.items() if name in OF_RUN}
     at_end, of_hit = numbers_at(runs, case), whole.in_si.get("impulse", MISSING)
     if of_hit.value is not None and math.isclose(of_hit.value, at_end["impulse"].known, rel_tol=1e-9):
         found["impulse"] = of_hit  # one number with one bar

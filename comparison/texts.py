@@ -5,9 +5,9 @@ from typing import Any
 
 from bent_beam.measure.numbers import Number
 from comparison.readable import (
-    BEFORE,
     LIMITS,
     REGIMES,
+    SHORT_ZONE,
     beam_line,
     hits_table,
     in_unit,
@@ -17,6 +17,7 @@ from comparison.readable import (
     shown,
     text_table,
     unit_for,
+    validity_text,
 )  # fmt: skip
 from comparison.whole_numbers import BETWEEN_WALLS, WHOLE
 
@@ -45,8 +46,11 @@ OF_BALANCE = {
 
 def prediction_text(document: dict[str, Any]) -> str:
     """What :func:`comparison.predicting.predict_case` found, in the order in which it is asked for."""
+    contact = REGIMES[document["regime"]]
+    if document["regime"] == "discrete" and document["model"] == "timoshenko":
+        contact = SHORT_ZONE
     lines = [
-        f"{REGIMES[document['regime']]} kappa/nu = {document['kappa_over_nu']:.4g} (it spreads below 1).",
+        f"{contact} kappa/nu = {document['kappa_over_nu']:.4g} (it spreads below 1).",
         *["So it is on a rigid wall; this one gives way."] * (document["wall"] is not None),
         beam_line(document["model"], document["velocity"]),
         validity_text(document),
@@ -61,25 +65,6 @@ def prediction_text(document: dict[str, Any]) -> str:
 
 def _with_warnings(lines: Sequence[str], document: dict[str, Any]) -> str:
     return "\n".join([*lines, *(f"warning: {text}" for text in document["warnings"])])
-
-
-def validity_text(document: dict[str, Any]) -> str:
-    """From when, until when and why no longer the theory holds."""
-    why, before = LIMITS[document["limited_by"]], BEFORE.get(document["valid_after"], "")
-    if not document["valid_until"]:
-        return f"The theory covers no time: {why}."
-    start = f"from {milliseconds(document['valid_from'])} (before, {before}) " if before else ""
-    lines = [f"The theory holds to 2 % {start}until {milliseconds(document['valid_until'])}: then {why}."]
-    if document["force_until"] < document["valid_until"]:
-        begin = milliseconds(max(document["force_until"], document["valid_from"]))
-        lines.append(f"From {begin} on it has no reaction: waves from the ends swing the force.")
-    loads = any(document[f"epsilon_{load}"] for load in ("alpha", "psi", "chi", "axial"))
-    acting = {"loads": loads, "shear": document["model"] == "timoshenko", "the wall's give": document["wall"]}
-    if left_out := [name for name, acts in acting.items() if acts]:
-        lines.append(f"Its moment leaves out {' and '.join(left_out)}.")  # it is of leading order
-    if acting["shear"] and (document["regime"] == "discrete" or document["damping"]):  # one point, as yet or for good
-        lines.append("Its half contact is within 2 % only without loads and damping.")
-    return "\n".join(lines)
 
 
 def _instants(document: dict[str, Any]) -> str:
@@ -113,6 +98,8 @@ def _agreement(document: dict[str, Any]) -> list[str]:
         return [*lines, "Theory and simulation do not agree at any of the times compared."]
     begin, end = (milliseconds(agreement[key]) for key in ("from", "until"))
     span = f"at {end} alone" if agreement["from"] == agreement["until"] else f"from {begin} to {end}"
+    if agreement["from"] == document["compared_from"] < agreement["until"]:  # earlier times are not compared
+        span = f"at all compared times until {end}"
     return [*lines, f"Half length and impulse of theory and simulation agree {span} (within bars and 2 %)."]
 
 
@@ -151,6 +138,8 @@ def _whole(document: dict[str, Any]) -> list[str]:
     if not (whole := document["whole_impact"]):
         return []
     said = [f"warning: {w}" for w in whole["warnings"] if w not in document["warnings"]]
+    if any(isinstance(number, dict) and number.get("band") for number in whole.values()):
+        said = ["± is the error bar, about two standard deviations; a band is mean ± one standard deviation.", *said]
     largest = f"Largest impulse within {milliseconds(whole['push_window'])}: {_scaled(whole['push'], 1.0)} N s."
     if force := whole["peak_force"]:
         largest = f"Largest force of the whole impact: {' '.join(in_unit(number_from(force), 'N'))}."
@@ -252,8 +241,9 @@ def run_text(found: dict[str, Any], verbose: bool = False) -> str:
     """The summary of one run for a reader; ``verbose``: with what tells an expert how good it is."""
     until = f"until {1e3 * found['time']:.4g} ms"
     behind = any(hit["wall"] == "opposite" for hit in found["hits"] or ())
+    none = found["half_contact_length"]["value"] is None and found["total_impulse"]["value"] is not None
     lines = [
-        _compared("half contact length", found["half_contact_length"], "m"),
+        _compared(f"half contact length{', off the wall' * none}", found["half_contact_length"], "m"),
         _compared("impulse, of the front less the opposite" if behind else "impulse", found["total_impulse"], "N s"),
     ]
     peaks = {"moment": (f"largest bending moment, {until}", "N m"), "stress": (f"largest stress, {until}", "Pa")}
@@ -268,7 +258,8 @@ def run_text(found: dict[str, Any], verbose: bool = False) -> str:
         number = Number(found[f"peak_{name}"], found[f"peak_{name}_error"])
         lines += [[title, *in_unit(number, unit), ""]] * number.measured
     if found["restitution"]["value"] is not None:
-        lines.append(_compared("coefficient of restitution", found["restitution"]))
+        last = number_from(found["last_contact"]).scaled(1e3)
+        lines += [_compared("coefficient of restitution", found["restitution"]), ["last contact", str(last), "ms", ""]]
     lines.append(["lost to steps and mesh", f"{100.0 * found['numerical_loss']:.2g}", "% of the energy", ""])
     text = [
         f"{found['path']}, {1e3 * found['time']:.4g} ms after {found['begins']} ({found['seconds']:.2g} s for one run)",

@@ -20,6 +20,7 @@ from comparison.bouncing import bounce, case_of, follow_hits, followed_until, pr
 from comparison.questions import Question
 from comparison.readable import milliseconds
 from comparison.store import RunStore
+from comparison.texts import run_text
 from exudyn_models import ExudynModel
 from exudyn_models.integrators import Trapezoidal
 from hermite_fe import HermiteFE
@@ -116,6 +117,9 @@ def test_a_run_until_separation_ends_off_the_wall_on_either_path(path, tmp_path)
     assert history.array("gap")[-1].min() > 0.0 and found["hits"] is None
     assert found["time"] == history.time[-1] < 3.0 * history.impact.slow_time_scale
     assert abs(found["energy"]["defect"]) < 1e-5 * found["energy"]["initial"]
+    last = whole_impact(history).last_contact * history.impact.slow_time_scale
+    assert found["last_contact"]["value"] == pytest.approx(last)
+    assert "half contact length, off the wall" in run_text(found) and f"{1e3 * last:.3g}" in run_text(found)
     largest = np.argmax(np.abs(history.array("largest_moment")))
     assert found["peak_moment_time"] == pytest.approx(history.time[largest], rel=0.02)
     for kind in ("kinetic", "strain"):
