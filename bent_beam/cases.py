@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bent_beam.checks import shortened
-from bent_beam.description import GRAVITY, impact_of
+from bent_beam.description import GRAVITY, OWN_SHEAR, impact_of
 from bent_beam.errors import InputError, unknown_key
 from bent_beam.fields import key_of, made_from, part_from_table, part_or_auto
 from bent_beam.impact import Impact
@@ -108,7 +108,10 @@ def case_from_tables(tables: Mapping[str, Any]) -> Case:
     beam = made_from(BeamTable, tables["beam"], "beam")
     arrival = made_from(ImpactTable, tables["impact"], "impact")
     wall = made_from(WallTable, tables.get("wall", {}), "wall")
-    section = None if tables.get("section") is None else part_from_table(SECTIONS, tables["section"], "section")
+    given = tables.get("section")
+    if isinstance(given, Mapping) and "shear_modulus" in given:
+        raise InputError(f"section.shear_modulus is not a known setting; {OWN_SHEAR}")
+    section = None if given is None else part_from_table(SECTIONS, given, "section")
     try:
         impact = impact_of(beam, arrival, wall, section)
     except ValueError as error:

@@ -14,6 +14,9 @@ from bent_beam.section import Section
 from bent_beam.tables import AS_THEY_ARE, MODELS, WAYS, BeamTable, WallTable, _ImpactTable
 
 TIMOSHENKO, EULER_BERNOULLI = MODELS
+OWN_SHEAR = (
+    'of a composite, whose G does not follow from E, take section.kind = "general" and beam.shear_stiffness, κ_sGA in N'
+)
 GRAVITY = 9.80665  # m/s², standard (3rd General Conference on Weights and Measures, 1901)
 
 
@@ -66,7 +69,8 @@ def _of_section(beam: BeamTable, section: Section | None, name: str) -> float | 
     """A quantity of the section, or as it is given; ``None`` where neither knows it."""
     given, known = getattr(beam, name), getattr(section, name, None)
     if given is not None and known is not None:
-        raise InputError(f"beam.{name} = {given!r} and [section] say the same thing: give one of them")
+        instead = f"; {OWN_SHEAR}" if name == "shear_stiffness" else ""
+        raise InputError(f"beam.{name} = {given!r} and [section] say the same thing: give one of them{instead}")
     # sizes that are each allowed may make one that is not
     return given if known is None else declared(Impact)[name].checked(f"section: {name}", known)
 
