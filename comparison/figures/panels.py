@@ -68,7 +68,7 @@ def _force(history: ImpactHistory, end: float) -> tuple[Array, Array]:
 def draw_force(axis: Any, history: ImpactHistory, end: float, words: str = "") -> None:
     """Mean force of the wall in windows of time; of a wall that gives way the largest is marked by ``words``."""
     edges, force = _force(history, end)
-    peaks = wall_peaks(history)
+    peaks = wall_peaks(history, end)
     largest = 0.0 if peaks is None else peaks.force if peaks.wall == "front" else -peaks.force
     low, top = min(float(force.min()), largest), max(float(force.max()), largest)
     scale, unit = unit_for("N", [low, top])
@@ -81,7 +81,9 @@ def draw_force(axis: Any, history: ImpactHistory, end: float, words: str = "") -
     window = f"mean over {milliseconds(edges[1])}{second}{rigid}"
     axis.text(1.0, 1.03, window, transform=axis.transAxes, ha="right", va="bottom", fontsize=6.5)
     if peaks is not None and largest:
-        _mark(axis, peaks.time, scale * largest, words or f"largest {scale * peaks.force:.4g} {unit}")
+        last = int(np.searchsorted(history.time, end, side="right")) - 1
+        rising = peaks.time > history.time[max(last - 1, 0)]  # since the instant before; its time is amid a step
+        _mark(axis, peaks.time, scale * largest, words or f"largest {scale * peaks.force:.4g} {unit}", rising)
 
 
 def draw_stress(axis: Any, history: ImpactHistory, end: float, words: str, yield_stress: float | None) -> None:
@@ -96,13 +98,16 @@ def draw_stress(axis: Any, history: ImpactHistory, end: float, words: str, yield
     if yield_stress is not None and stress is not None:
         style.yield_line(axis, scale * yield_stress, top)
     k = int(np.argmax(values))
-    _mark(axis, float(time[k]), scale * float(values[k]), words or f"largest {scale * values[k]:.4g} {unit}")
+    words = words or f"largest {scale * values[k]:.4g} {unit}"
+    _mark(axis, float(time[k]), scale * float(values[k]), words, k == values.size - 1 > 0)
 
 
-def _mark(axis: Any, time: float, value: float, words: str) -> None:
-    """A point and what it says, on the side where there is room."""
+def _mark(axis: Any, time: float, value: float, words: str, rising: bool) -> None:
+    """A point and what it says, on the side where there is room. rising : it is the largest only because the drawing
+    ends, which is said."""
     left = time < 0.5e-3 * axis.get_xlim()[1]
-    axis.plot([1e3 * time], [value], marker="o", ms=4.0, mfc="white", color="black", ls="", zorder=5)
+    words += ", still rising" if rising else ""
+    axis.plot([1e3 * time], [value], marker="o", ms=4.0, mfc="white", color="black", ls="", zorder=5, clip_on=False)
     axis.annotate(words, (1e3 * time, value), (5 if left else -5, 4), textcoords="offset points", fontsize=7.0,
                   ha="left" if left else "right", va="bottom")  # fmt: skip
 

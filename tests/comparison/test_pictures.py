@@ -11,6 +11,7 @@ from bent_beam.cases import load_case
 from comparison import bounce, predict
 from comparison.figures import style
 from comparison.figures.history import _window, draw_history
+from comparison.figures.panels import sheet
 
 
 def inside(axis):
@@ -49,6 +50,20 @@ def test_nothing_is_cut_off_and_the_largest_values_are_marked_with_their_numbers
 def test_the_picture_of_a_stored_run_ends_soon_after_the_last_push_and_not_with_the_record():
     end, _ = _window(pushed_until(0.5, last=8.0))
     assert 0.5 <= end <= 0.6
+
+
+@pytest.mark.parametrize("end, rising", [(2.0, False), (1.0, True)])
+def test_a_value_that_is_largest_where_the_picture_ends_is_said_to_rise_still(end, rising):
+    """Force and moment grow until 1 and fall; only the picture that ends before tells no largest value."""
+    time = np.linspace(0.0, 2.0, 41)
+    until = np.minimum(time, 1.0)
+    peaks = {"peak_force": until, "peak_force_time": until - 0.025, "peak_penetration": until, "peak_pressure": until}
+    fig = sheet(pushed_until(2.0, moment=until - 0.5 * (time - until), **peaks), "", end)
+    for axis in fig.axes[:2]:
+        (words,) = [text.get_text() for text in axis.texts if text.get_text().startswith("largest")]
+        assert words.endswith(", still rising") == rising
+        (mark,) = [line for line in axis.lines if line.get_marker() == "o"]
+        assert not mark.get_clip_on()  # at the end of the axis it is whole
 
 
 def test_predict_writes_document_and_picture_and_refuses_without_a_simulation(tmp_path):
