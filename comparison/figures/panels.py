@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
+from matplotlib.collections import PolyCollection
 
 from bent_beam import Impact, ImpactHistory
 from bent_beam.free_flight import acting
@@ -122,20 +123,40 @@ def contacts(history: ImpactHistory, name: str = "impulse") -> tuple[Array, Arra
     return time, places
 
 
+def _pushed(history: ImpactHistory, name: str, end: float) -> Array:
+    """Rectangles of time, ms, and place, m, in which a wall pushed until ``end``, s: each pushing node with its share
+    of the beam, half an element to either side. Shape (rectangles, 4 corners, 2)."""
+    time, found = 1e3 * history.time, []
+    pushing = acting(history.array(name))
+    for k in np.flatnonzero(pushing.any(axis=1) & (history.time[:-1] <= end)):
+        x = history.positions(int(k))
+        borders = 0.5 * (x[:-1] + x[1:])
+        nodes = np.searchsorted(borders, history.contact_positions(int(k))[pushing[k]])
+        edges = np.concatenate([x[:1], borders, x[-1:]])
+        low, high = edges[nodes], edges[nodes + 1]
+        for bottom, top in zip(np.setdiff1d(low, high), np.setdiff1d(high, low)):  # neighbours are one
+            found.append((time[k], time[k + 1], bottom, top))
+            if history.sides == 1:
+                found.append((time[k], time[k + 1], -top, -bottom))
+    return np.array([[(t, y), (u, y), (u, z), (t, z)] for t, u, y, z in found]).reshape(-1, 4, 2)
+
+
 def draw_zone(axis: Any, history: ImpactHistory, end: float) -> None:
-    """Where the wall pushes, over time; as far out as it does."""
+    """Where the wall pushes, over time; as far out as it does. A push of the middle alone is a line along the beam."""
     reach = 0.0
     for name, colour, label in (("impulse", FRONT, "wall"), ("opposite_impulse", BACK, "second wall")):
         if name not in history:
             continue
         time, place = contacts(history, name)
-        kept = time <= end
-        axis.plot(1e3 * time[kept], place[kept], ls="", marker=".", ms=2.0, color=colour, rasterized=True, label=label)
-        reach = max(reach, float(np.abs(place[kept]).max(initial=0.0)))
+        parts = _pushed(history, name, end)
+        zone = PolyCollection(list(parts), color=colour, lw=1.0, label=label, rasterized=True)  # lw: thin ones are seen
+        axis.add_collection(zone)
+        if place[time <= end].any():
+            reach = max(reach, float(np.abs(parts[..., 1]).max()))
     edge = 1.15 * reach or 0.5 * history.impact.length
     axis.set(xlim=(0.0, 1e3 * end), ylim=(-edge, edge), xlabel="time  (ms)", ylabel="pushes at $x$  (m)")
     if "opposite_impulse" in history:
-        axis.legend(loc="lower right", bbox_to_anchor=(1.0, 0.98), ncols=2, markerscale=3.0, borderpad=0.0)
+        axis.legend(loc="lower right", bbox_to_anchor=(1.0, 0.98), ncols=2, borderpad=0.0)
 
 
 def _far_wall(impact: Impact) -> float:

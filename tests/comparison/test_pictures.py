@@ -5,20 +5,21 @@ import re
 import numpy as np
 import pytest
 from called import answered, refused
-from histories import pushed_until, rod
+from histories import pushed_until, recorded, rod
 
 from bent_beam.cases import load_case
 from comparison import bounce, predict
 from comparison.figures import style
 from comparison.figures.history import _window, draw_history
-from comparison.figures.panels import sheet
+from comparison.figures.panels import draw_zone, sheet
 
 
 def inside(axis):
-    """Whether every curve of an axis is within its limits, what is drawn in shares of it left out."""
+    """Whether every curve and surface of an axis is within its limits, what is drawn in shares of it left out."""
     low, high = sorted(axis.get_ylim())
     curves = [line for line in axis.lines if line.get_transform() == axis.transData]
     stairs = [patch.get_data().values for patch in axis.patches if hasattr(patch, "get_data")]
+    stairs += [surface.get_datalim(axis.transData).intervaly for surface in axis.collections]
     values = np.concatenate([[low], *(np.asarray(line.get_ydata(), float) for line in curves), *stairs])
     return low <= values.min() and values.max() <= high
 
@@ -64,6 +65,18 @@ def test_a_value_that_is_largest_where_the_picture_ends_is_said_to_rise_still(en
         assert words.endswith(", still rising") == rising
         (mark,) = [line for line in axis.lines if line.get_marker() == "o"]
         assert not mark.get_clip_on()  # at the end of the axis it is whole
+
+
+def test_each_pushing_node_is_drawn_with_half_an_element_to_either_side():
+    """Nodes at 0, 0.25 … 1 of the half beam: first the middle one, then it and the next, then the last one alone."""
+    given = np.outer([0.0, 1.0, 2.0, 2.0], np.eye(5)[0]) + np.outer([0.0, 0.0, 1.0, 1.0], np.eye(5)[1])
+    run = recorded(np.arange(4.0), given + np.outer([0.0, 0.0, 0.0, 1.0], np.eye(5)[4]))
+    with style.figure() as (_, axis):
+        draw_zone(axis, run, 3.0)
+    found = {(*part.vertices.min(axis=0), *part.vertices.max(axis=0)) for part in axis.collections[0].get_paths()}
+    middle = {(0.0, 0.0, 1e3, 0.125), (1e3, 0.0, 2e3, 0.375)}
+    upper = middle | {(2e3, 0.875, 3e3, 1.0)}
+    assert found == upper | {(start, -top, stop, -low) for start, low, stop, top in upper}
 
 
 def test_predict_writes_document_and_picture_and_refuses_without_a_simulation(tmp_path):
