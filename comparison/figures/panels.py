@@ -49,7 +49,7 @@ def sheet(
             axis.set_xlabel("")
             axis.tick_params(labelbottom=False)
         style.label_panels(push, largest, zone, shapes, *more)
-        fig.suptitle(title, fontsize=9.0)
+        fig.suptitle(f"{title}, path {history.path}", fontsize=9.0)
         draw_shapes(shapes, history, end, reach)
         return fig
 

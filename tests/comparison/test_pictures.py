@@ -31,7 +31,7 @@ def test_nothing_is_cut_off_and_the_largest_values_are_marked_with_their_numbers
     found = predict(case, case.end_time) if two else bounce(case)
     fig = found.plot()
     push, stress, zone, shapes = fig.axes
-    assert fig.get_suptitle() == "A rod" and all(inside(axis) for axis in fig.axes)
+    assert fig.get_suptitle() == "A rod, path hermite" and all(inside(axis) for axis in fig.axes)
     numbers = found.to_dict()
     known = numbers["times"][-1]["simulation"]["peak_stress"] if two else numbers["peak_stress"]
     (mark,) = [line for line in stress.lines if line.get_marker() == "o"]
