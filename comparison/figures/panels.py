@@ -77,8 +77,8 @@ def draw_force(axis: Any, history: ImpactHistory, end: float, words: str = "") -
     axis.stairs(scale * force, 1e3 * edges, color=style.COLOURS["blue"], lw=0.8)
     axis.set(ylabel=f"force of the wall  ({unit})", xlim=(0.0, 1e3 * end))
     axis.set_ylim(scale * min(0.0, 1.15 * low), scale * 1.3 * top)
-    second = "; of the second wall negative" if history.impact.opposite_wall is not None else ""
-    rigid = "" if peaks else "; a rigid wall has no peak force"
+    second = "; second wall negative" if history.impact.opposite_wall is not None else ""
+    rigid = "" if peaks else "; rigid: no peak force" if second else "; a rigid wall has no peak force"
     window = f"mean over {milliseconds(edges[1])}{second}{rigid}"
     axis.text(1.0, 1.03, window, transform=axis.transAxes, ha="right", va="bottom", fontsize=6.5)
     if peaks is not None and largest:
