@@ -62,7 +62,9 @@ def leading_figure(rows: Sequence[MatchRow]) -> Any:
         for (top, below), what, symbol in zip(axes.T, ("lambda0", "r0"), (r"$\lambda_0$", r"$r_0/\nu$")):
             values = np.asarray(getattr(exact, what), float)
             top.loglog(curve[values > 0], values[values > 0], **style.THEORY)
-            top.set_ylabel(f"{symbol}  (1)")
+            style.decades(top.xaxis, curve)
+            style.decades(top.yaxis, values[values > 0])
+            top.set_ylabel(symbol)
             below.axhline(0.0, **{**style.THEORY, "label": None})
             _compare(top, below, leading, what)
         style.label_panels(*axes[0])
@@ -86,9 +88,10 @@ def _compare(top: Axes, below: Axes, rows: Sequence[MatchRow], what: str) -> Non
         bars = np.array([100 * (c.relative_bar() or 0.0) for _, c in mine])
         style.bars(below, x * 1.015 ** (i - (len(marks) - 1) / 2), off, bars, {**mark, "label": None})
         limit = max(limit, 1.5 * float(np.max(np.abs(off) + bars)))  # every point and its bar have their place
-    below.set(xlabel=r"$\kappa/\nu$  (1)", ylabel="difference  (%)")
-    below.set_yscale("symlog", linthresh=1e-2)
-    below.set_yticks([-10, -1, -0.1, 0, 0.1, 1, 10], ["−10", "−1", "−0.1", "0", "0.1", "1", "10"])
+    below.set(xlabel=r"$\kappa/\nu$", ylabel="difference  (%)")
+    style.linear_within(below, 0.01, " %")
+    ticks = (-10, -1, -0.1, 0, 0.1, 1, 10)
+    below.set_yticks(ticks, [f"{tick:g}".replace("-", "−") for tick in ticks])
     below.set_ylim(-limit, limit)
 
 
@@ -120,9 +123,9 @@ def draw_first_order(rows: Sequence[MatchRow], out: Path) -> list[Path]:
                         style.bars(axis, x, values, bars, {**mark, "label": None})
                         largest = max(largest, *map(abs, values))
             if largest > 30:
-                axis.set_yscale("symlog", linthresh=1.0)
+                style.linear_within(axis, 1.0)
             symbols = [symbol.format(1)] * any(groups) + [symbol.format("N")] * (None in groups)
-            axis.set(xlabel=r"$\kappa/\nu$  (1)", ylabel=f"{', '.join(symbols)}  (1)")
+            axis.set(xlabel=r"$\kappa/\nu$", ylabel=", ".join(symbols))
         style.label_panels(*axes)
         loads = r"($\alpha$, $\psi$, $\chi$, $N$)" if tension else r"($\alpha$, $\psi$, $\chi$)"
         axes[0].legend(title=loads if any(groups) else None, ncols=1 if None in groups else 2)

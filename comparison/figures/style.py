@@ -15,8 +15,10 @@ import matplotlib
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter
 
 from bent_beam.files import write_atomically
 
@@ -132,6 +134,21 @@ def wall_below(axis: Axes, low: float, high: float) -> None:
 def panel_label(axis: Axes, text: str) -> None:
     """(a), (b) … in the upper left corner, outside the data."""
     axis.text(0.0, 1.02, text, transform=axis.transAxes, ha="left", va="bottom", fontweight="bold", fontsize=8.5)
+
+
+def decades(axis: Axis, values: Iterable[float]) -> None:
+    """Plain numbers on a logarithmic axis of ``values``: of decades, and where these are few of what is between."""
+    known = [*values]
+    few = max(known) < 100.0 * min(known)
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if few else (1.0,)))
+    axis.set_major_formatter(FormatStrFormatter("%g"))
+    axis.set_minor_formatter(NullFormatter())
+
+
+def linear_within(axis: Axes, limit: float, unit: str = "") -> None:
+    """An axis of values of both signs, logarithmic from ``limit`` on; says so."""
+    axis.set_yscale("symlog", linthresh=limit)
+    axis.set_title(f"linear within ±{limit:g}{unit}, beyond logarithmic", loc="right", fontsize=6.5, pad=3.0)
 
 
 def yield_line(axis: Axes, limit: float, highest: float) -> None:

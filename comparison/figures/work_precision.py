@@ -11,8 +11,6 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter
-
 from comparison.figures import style
 from comparison.rows import HELD_AGAINST, MatchRow
 
@@ -49,9 +47,9 @@ def _read(row: MatchRow, what: str) -> tuple[float | None, float | None]:
 def _draw(rows: Sequence[MatchRow], out: Path, name: str, first: bool, missing: int) -> list[Path]:
     order = 1 if first else 0
     panels = {
-        f"r{order}": f"error of $r_{order}$  (1)",
-        f"lambda{order}": rf"error of $\lambda_{order}$  (1)",
-        "lift": r"lift $/(V_0t)$" + (", no load" if first else "") + "  (1)",
+        f"r{order}": f"error of $r_{order}$",
+        f"lambda{order}": rf"error of $\lambda_{order}$",
+        "lift": r"lift $/(V_0t)$" + (", no load" if first else ""),
     }
     groups = _groups(rows)
     marks = {label: mark for group in groups for label, mark in _marks(group).items()}
@@ -66,7 +64,8 @@ def _draw(rows: Sequence[MatchRow], out: Path, name: str, first: bool, missing: 
                 for label, mark in marks.items():
                     _line(axis, [r for r in group if r.label == label and _case(r) == case], what, mark)
                 axis.set(yscale="log", ylabel=title, xlabel="seconds  (s)" if line == len(lines) - 1 else "")
-                _seconds(axis, rows)
+                axis.set_xscale("log")
+                style.decades(axis.xaxis, [r.seconds for r in rows if r.seconds])
             paths = ", ".join(dict.fromkeys(r.path for r in group)) if len(groups) > 1 else ""
             axes[line][0].set_title(_title(case, paths, first), loc="left")
         for axis in axes[0]:
@@ -113,16 +112,6 @@ def _title(case: tuple[float, tuple[float, ...]], path: str, first: bool) -> str
         symbols = r"$\alpha, \psi, \chi$" + (", $N$" if load[3] else "")
         words += rf", ({symbols}) = ({', '.join(f'{v:g}'.replace('-', '−') for v in load[: 4 if load[3] else 3])})"
     return f"{words}, path {path}" if path else words
-
-
-def _seconds(axis: Any, rows: Sequence[MatchRow]) -> None:
-    """A logarithmic axis of seconds, with numbers on it however few decades there are."""
-    seconds = [r.seconds for r in rows if r.seconds]
-    axis.set_xscale("log")
-    few = max(seconds) < 100.0 * min(seconds)
-    axis.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if few else (1.0,)))
-    axis.xaxis.set_major_formatter(FormatStrFormatter("%g"))
-    axis.xaxis.set_minor_formatter(NullFormatter())
 
 
 def _line(axis: Any, rows: Sequence[MatchRow], what: str, mark: dict[str, Any]) -> None:

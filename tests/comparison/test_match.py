@@ -130,6 +130,11 @@ def test_the_plot_shows_what_was_measured_and_says_what_is_missing_of_nothing_el
         (points,) = (line for line in figure.axes[0].lines if line.get_label() == "Stranger")
         assert points.get_xdata().tolist() == [0.5, 0.6]
     assert "1 row (Stranger)" in leading_figure([lost, other]).get_supxlabel()
+    figure.draw_without_rendering()
+    numbers = [tick.get_text() for axis in figure.axes[:2] for tick in axis.get_yticklabels(which="both")]
+    assert {"0.1", "1", "2"} <= {*numbers} and "10^" not in "".join(numbers)  # no powers within one decade
+    scales = {(axis.get_yscale(), axis.get_title(loc="right")) for axis in figure.axes}
+    assert scales == {("log", ""), ("symlog", "linear within ±0.01 %, beyond logarithmic")}
 
 
 without_lift = cache(SelfSimilarFE.simulate)
