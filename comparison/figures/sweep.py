@@ -4,6 +4,7 @@ yields. Both in units that a reader writes."""
 from typing import Any
 
 import numpy as np
+from matplotlib.ticker import MaxNLocator
 from scipy.interpolate import PchipInterpolator
 
 from bent_beam.measure.numbers import MISSING
@@ -16,7 +17,7 @@ SHOWN = ("peak_stress", "peak_moment", "peak_force", "restitution", "impulse")
 """Numbers that are drawn where there are any, in this order; the moment only without a stress."""
 CURVES, MAPS = 3, 2  # panels
 OF_A_MAP = 3  # values of a key of a map
-LEVELS = 8
+FEWEST, LEVELS = 2, 8  # parts of a map between contours
 FINE = 60  # places a key between which a map's lines are straight
 LOUD = 0.1  # of the value: larger bars are marked on a map
 
@@ -39,7 +40,7 @@ def sweep_figure(found: SweepTable) -> Any:
         style.label_panels(*axes[0])
         fig.suptitle(found.title or "Sweep", fontsize=9.0)
         handles, names = axes[0, 0].get_legend_handles_labels()
-        note, sizes = _note(found, shown[0] if mapped else None), {"fontsize": 7.0, "title_fontsize": 7.0}
+        note, sizes = _note(found, shown if mapped else []), {"fontsize": 7.0, "title_fontsize": 7.0}
         fig.legend(handles, names, loc="outside lower center", ncols=4, title=note, **sizes)
         return fig
 
@@ -112,9 +113,14 @@ def _map(axis: Any, found: SweepTable, name: str) -> None:
     shown = np.ma.masked_invalid(z)
     if shown.count() and shown.max() > shown.min():
         smooth = _between(x, y, shown)
-        field = axis.contourf(*smooth, LEVELS, cmap="YlGnBu", alpha=0.8)
-        axis.clabel(axis.contour(*smooth, field.levels, colors="black", linewidths=0.4), fontsize=6.5, fmt="%g")
-        axis.figure.colorbar(field, ax=axis, label=title)
+        low, high = float(shown.min()), float(shown.max())
+        parts = np.clip((high - low) / max(float(np.nanmax(bars)), 1e-300), FEWEST, LEVELS)  # no finer than the bars
+        levels = MaxNLocator(int(parts), min_n_ticks=1).tick_values(low, high)
+        field = axis.contourf(*smooth, levels, cmap="YlGnBu", alpha=0.8)
+        lines = axis.contour(*smooth, levels, colors="black", linewidths=0.4)
+        for text in axis.clabel(lines, fontsize=6.5, fmt="%g"):
+            text.set_clip_on(False)  # one at the edge is whole
+        axis.figure.colorbar(field, ax=axis)
         if (limit := _yield_stress(found, name)) is not None and shown.min() < 1e-6 * limit < shown.max():
             axis.contour(*smooth, [1e-6 * limit], colors=style.COLOURS["vermilion"], linewidths=1.8)
     every = np.stack(np.meshgrid(x, y), axis=-1)
@@ -123,7 +129,7 @@ def _map(axis: Any, found: SweepTable, name: str) -> None:
                         (loud, {"marker": "o", "ms": 6.0, "mfc": "none", "mew": 0.7})):  # fmt: skip
         if which.any():  # the layout takes a curve without points to be in the corner
             axis.plot(*every[which].T, ls="", color=style.COLOURS["black"], clip_on=False, **look)
-    axis.set(xlabel=label, ylabel=other if axis.get_subplotspec().is_first_col() else "")
+    axis.set(xlabel=label, ylabel=other if axis.get_subplotspec().is_first_col() else "", title=title)
     axis.grid(False)
 
 
@@ -137,19 +143,25 @@ def _between(x: Any, y: Any, z: Any) -> tuple[Any, Any, Any]:
     return *fine, PchipInterpolator(y, PchipInterpolator(x, z, axis=1)(fine[0]), axis=0)(fine[1])
 
 
-def _note(found: SweepTable, mapped: str | None) -> str:
-    """What the marks mean; of a map, how wide the bars of the number ``mapped`` first are, which it cannot show."""
+def _note(found: SweepTable, mapped: list[str]) -> str:
+    """What the marks mean; of maps, how wide the bars of the numbers ``mapped`` are, which they cannot show."""
     lost = sum(1 for row in found.rows if not row.numbers)
     missing = f" {lost} of {len(found.rows)} rows have no number." if lost else ""
-    if mapped is None:
+    if not mapped:
         return f"Bars: error bars.{missing}"
-    pairs = [pair for pair in _values(found, mapped) if pair]
-    shares = [abs(bar / value) for value, bar in pairs if value]
-    wide = f"Error bars of the {WHOLE[mapped].heading}: {100 * float(np.median(shares)):.2g} % (median), at most "
+    wide = "; ".join(_bars_of(found, name) for name in mapped)
     line = ""
-    if (limit := _yield_stress(found, mapped)) is not None:
-        highest = max(value for value, _ in pairs)
+    for limit in filter(None, (_yield_stress(found, name) for name in mapped)):
+        highest = max(pair[0] for pair in _values(found, "peak_stress") if pair)
         where = "Red line: the material yields" if highest > limit else "Nowhere does the material yield"
         line = f" {where}, {1e-6 * limit:.4g} MPa."
-    marks = f"Dots: rows, interpolated between; rings: bar above {100 * LOUD:g} %."
-    return f"{wide}{100 * max(shares):.2g} %.\n{marks}{line}{missing}"
+    marks = f"Dots: rows, interpolated between; rings: bar above {100 * LOUD:g} % of the value."
+    return f"Error bars: {wide}.\n{marks}{line}{missing}"
+
+
+def _bars_of(found: SweepTable, name: str) -> str:
+    """The bars of a number in a few words, in the unit of its map."""
+    pairs = [pair for pair in _values(found, name) if pair]
+    scale, unit = unit_for(WHOLE[name].unit, [value for value, _ in pairs])
+    middle, widest = (f"{scale * size([bar for _, bar in pairs]):.2g} {unit}".rstrip() for size in (np.median, np.max))
+    return f"{WHOLE[name].heading} ± {middle} (median), at most ± {widest}"

@@ -1,6 +1,7 @@
 """Pictures of a run: nothing is cut off, the number is marked, the wall is below, heights are to the scale stated."""
 
 import re
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -8,10 +9,12 @@ from called import answered, refused
 from histories import pushed_until, recorded, rod
 
 from bent_beam.cases import load_case
+from bent_beam.measure.numbers import Number
 from comparison import bounce, predict
 from comparison.figures import style
 from comparison.figures.history import _window, draw_history
 from comparison.figures.panels import draw_zone, sheet
+from comparison.figures.sweep import sweep_figure
 
 
 def inside(axis):
@@ -77,6 +80,25 @@ def test_each_pushing_node_is_drawn_with_half_an_element_to_either_side():
     middle = {(0.0, 0.0, 1e3, 0.125), (1e3, 0.0, 2e3, 0.375)}
     upper = middle | {(2e3, 0.875, 3e3, 1.0)}
     assert found == upper | {(start, -top, stop, -low) for start, low, stop, top in upper}
+
+
+def test_contours_of_a_sweep_are_no_finer_than_its_bars_which_are_said_of_each_panel():
+    vary = {"impact.velocity": [1.0, 2.0, 3.0], "beam.length": [1.0, 2.0, 3.0]}
+    rows = [
+        SimpleNamespace(yield_stress=None, numbers={"peak_stress": Number(1e7 * (1 + k), 1e5), "restitution": e})
+        for k, e in enumerate(Number(0.1 + 0.05 * k, bar) for k, bar in enumerate([0.01] * 8 + [0.11]))
+    ]
+    fig = sweep_figure(
+        SimpleNamespace(vary=vary, rows=rows, units={"impact.velocity": "m/s", "beam.length": "m"}, title="")
+    )
+    stress, restitution, *colour_bars = fig.axes
+    assert [axis.get_title() for axis in (stress, restitution)] == ["largest stress  (MPa)", "restitution"]
+    assert (stress.get_xlabel(), stress.get_ylabel()) == ("velocity  (m/s)", "length  (m)")
+    steps = [np.diff(axis.get_yticks()).min() for axis in colour_bars]
+    assert steps[0] <= 15.0 and 0.11 <= steps[1] <= 0.25
+    assert all(text.get_clip_on() is False for axis in (stress, restitution) for text in axis.texts)
+    said = fig.legends[0].get_title().get_text()
+    assert "largest stress ± 0.1 MPa (median), at most ± 0.1 MPa; restitution ± 0.01 (median), at most ± 0.11." in said
 
 
 def test_predict_writes_document_and_picture_and_refuses_without_a_simulation(tmp_path):
