@@ -115,11 +115,6 @@ class UniformMesh(_Mesh):
     element_length: Length
 
     def nodes(self, half_length: float) -> Array:
-        if self.element_length > 0.5 * half_length * (1.0 + 1e-9):
-            raise InputError(
-                f"mesh.element_length is too large: a half beam, here {half_length:.4g} m, has two elements at least, "
-                f"and four where a bar comes from a run with elements twice as long (got {self.element_length!r})"
-            )
         return np.linspace(0.0, half_length, _count(half_length, self.element_length) + 1)
 
 

@@ -63,8 +63,7 @@ class Method(Protocol):
     def simulate(
         self, impact: Impact, *, end_time: float | None = None, save: Save = 200, progress: Progress | None = None
     ) -> ImpactHistory:
-        """Follow ``impact`` to ``end_time`` (s). ``save``: about how many instants are saved, or
-        their times, s.
+        """Follow ``impact`` to ``end_time`` (s). ``save``: about how many instants are saved, or their times, s.
 
         Raises :class:`bent_beam.InputError` for what it refuses, :class:`bent_beam.SimulationError` when it cannot
         finish; any other error is a failure too.

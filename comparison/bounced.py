@@ -164,11 +164,12 @@ class Bounce:
                 f"{back} to the wall; these numbers are those of the first hit, later ones may be larger: "
                 "bentbeam bounce --hits 3 lists them"
             )
-        last, path = self.numbers["last_contact"], self.runs.question.method.path
+        last, method = self.numbers["last_contact"], self.runs.question.method
         if last.value is not None and (last.bar or 0.0) > last.value:
             found.append(
-                "the beam nearly touches the wall once more: if it does, the last contact is much later and the "
-                f"rebound may change by more than its bar; ask once more with --set {path}.refine=2"
+                "it is not sure whether the beam touches the wall once more: the last contact may be much earlier or "
+                "later, and the rebound may change by more than its bar; ask once more with "
+                f"--set {method.path}.refine={2.0 * getattr(method, 'refine', 1.0):g}"
             )
         return [*found, *told_by(self.in_si, self.case.section), *self.runs.warnings, *others]
 

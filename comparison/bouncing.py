@@ -39,7 +39,7 @@ TIMES = ("last_contact", "peak_moment_time")
 RUNS = 24  # of a band
 DAMPING_RATIOS = (0.0002, 0.002, 0.02)  # of the first mode: bare steel, a bar as it is held, with joints
 INSTANTS = 200  # saved a T* of a run that follows hits
-FLIGHTS = 50.0  # T* of flight under a load that count beside LONGEST_OF_WALL: a run saves 200 instants a T*
+FLIGHTS = 50.0  # T*, most that flights under a load add to LONGEST_OF_WALL: a run saves 200 instants a T*
 RESTS = 10.0  # periods of the lowest mode: a hit that lasts longer is the last
 ABOUT = 0.002  # T*: moments so near the largest are as unsure as it is
 RETURNS = 2.0  # bars of the restitution: the mean velocity has one, waves move a point of the beam as much again
@@ -194,9 +194,14 @@ def _may_be_none(reading: Mapping[str, Any], restitution: Number) -> float:
 
 
 def follow_hits(impact: Impact, method: Method, count: int, *, first: ImpactHistory) -> list[Hit]:
-    """The first ``count`` hits of a beam on its wall by one run, fewer where it is not back in time
-    (:func:`followed_until`) or comes to rest: a hit that is not over within :data:`RESTS` periods of the lowest mode,
-    or in the time that its wall needs to throw it off, is none.
+    """The hits of :func:`followed_hits`."""
+    return followed_hits(impact, method, count, first=first)[0]
+
+
+def followed_hits(impact: Impact, method: Method, count: int, *, first: ImpactHistory) -> tuple[list[Hit], str]:
+    """The first ``count`` hits of a beam on its wall by one run, and why there are no more; fewer where it is not back
+    in time (:func:`followed_until`) or comes to rest: a hit that is not over within :data:`RESTS` periods of the lowest
+    mode, or in the time that its wall needs to throw it off, is none.
 
     first : the run that a first hit has been read from: the first row is its own.
     Raises ``ValueError`` for what the method refuses, and between two walls.
@@ -210,9 +215,12 @@ def follow_hits(impact: Impact, method: Method, count: int, *, first: ImpactHist
         rests = len(over) < len(found) and end - found[-1].begin >= at_rest
         gone = over and impact.net_load <= 0.0 and not may_return(run)
         longest = followed_until(impact, over)
-        if len(over) >= count or rests or end >= longest or gone:
-            return [*hits(first)[:1], *over[1:count]] if over else []
         flight = _flights(impact, over[-1:])
+        if len(over) >= count or rests or end >= longest or gone:
+            why = "rests on its wall" if rests else f"is off for good or is not back by {milliseconds(longest)}"
+            if flight and not rests and (back := over[-1].end + flight) > end - period:
+                why = f"is back at about {milliseconds(back)}, and it is followed until {milliseconds(end)}"
+            return [*hits(first)[:1], *over[1:count]] if over else [], f"then the beam {why}"
         end = min(max(2.0 * end, end + flight + 2.0 * period), longest)
 
 
@@ -227,13 +235,3 @@ def followed_until(impact: Impact, over: Sequence[Hit]) -> float:
     :data:`FLIGHTS` T* at most."""
     unit = impact.slow_time_scale
     return LONGEST_OF_WALL * unit + min(_flights(impact, over), FLIGHTS * unit)
-
-
-def why_no_more(impact: Impact, over: Sequence[Hit]) -> str:
-    """Why :func:`follow_hits` found no more hits than these, in words."""
-    until, back = followed_until(impact, over), over[-1].end + _flights(impact, over[-1:]) if over else 0.0
-    if impact.net_load <= 0.0:
-        return f"then the beam is off for good or is not back by {milliseconds(until)}"
-    if back + 2.0 * LOWEST_PERIOD * impact.slow_time_scale > until:
-        return f"then the beam is back at about {milliseconds(back)}, and it is followed until {milliseconds(until)}"
-    return "then the beam rests on its wall"

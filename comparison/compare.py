@@ -136,7 +136,7 @@ def _changed(pairs: dict[str, Any], where: str = "") -> list[list[str]]:
     rows = []
     for key, (a, b) in pairs.items():
         alike = SHORT.repr(a) == SHORT.repr(b)
-        if all(one is None or isinstance(one, dict) for one in (a, b)):
+        if all(one is None or isinstance(one, dict) for one in (a, b)) and (a or b):
             rows += _changed(_apart(a or {}, b or {}), f"{where}{key}.")
         elif alike and isinstance(a, (str, list, tuple)):
             at = next((i for i, (x, y) in enumerate(zip(a, b)) if x != y), min(len(a), len(b)))

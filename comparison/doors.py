@@ -37,7 +37,7 @@ def predict(beam: Beam, *times: float, theory_only: bool = False, fresh: bool = 
     """
     case = case_of(beam)
     for time in times:
-        if isinstance(time, (Sequence, np.ndarray)):
+        if isinstance(time, (Sequence, np.ndarray)) and not isinstance(time, str):
             got = shortened(time)
             raise InputError(f"times must be a finite number each: predict(case, 0.001, 0.002), no list (got {got})")
         finite("times", time)

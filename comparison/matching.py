@@ -169,7 +169,7 @@ def answer(question: MatchQuestion, store: RunStore, limit: float | None = None)
     if estimate is not None and estimate.r1.spread > WIDE_FIRST * max(abs(estimate.r1.known), 1.0):
         warnings.append(f"wide error bar: r₁ = {estimate.r1}")
     numbers = with_theory(question, leading, estimate)
-    if estimate is not None and numbers["lambda1"].value is None:
+    if estimate is not None and question.kappa_over_nu < 1.0 and numbers["lambda1"].value is None:
         warnings.append(
             f"λ₁ is missing: the run shows no zone, λ₀ = {leading.lambda0} is not larger than its error bar"
         )

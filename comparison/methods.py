@@ -89,7 +89,7 @@ def methods_from_file(*files: Path) -> list[Method]:
 def _methods(file: Path) -> list[Method]:
     content = read_toml(file, "methods file")
     if content.keys() & {"beam", "impact"}:
-        raise InputError(f"methods file {file} is a case file: one of methods holds [[method]] tables alone")
+        raise InputError(f"methods file {file} is a case file; a methods file holds [[method]] tables only")
     for key in content:
         if key != "method":
             raise unknown_key("", str(key), ["method"])

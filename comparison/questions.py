@@ -45,6 +45,7 @@ RESOLVES = 0.05  # a whole beam's elements refined by RESOLVES/√(t/T*) are a t
 EARLIEST = 1e-5  # T*: before, those waves carry less than 0.1 ‰ of the impulse
 OF_SHORT, SHORT = 2.0, 0.05  # to SHORT, T*, a run has OF_SHORT times the elements of a whole impact; to later, fewer
 FINEST, SOON = 4.0, 0.025  # before SOON, T*, it has more, FINEST times at most, to resolve what the first instants left
+FEWEST = 4  # elements of a half beam
 LONGEST_STEP = 0.05  # T*: twenty in a period of a whole beam's first mode, ten of a coarser companion
 INSTANTS, OF_UNIT = 200, 2000  # saved: up to the time asked, evenly in √t; of a whole impact, a T*
 ERROR_BARS = {"drift": (), "quick": (COARSER,), "thorough": (COARSER, FINER)}
@@ -90,7 +91,23 @@ class Question:
     @property
     def run_by(self) -> Method:
         """The method with all its open settings chosen; of a band the first method drawn."""
-        return self._chosen(self.method) if self.band is None else self._drawn(*self.band)[0]
+        return self._own() if self.band is None else self._drawn(*self.band)[0]
+
+    def _own(self) -> Method:
+        """The method as this question takes it. Raises :class:`InputError` for elements or steps so long that a run
+        with longer ones, from which the bar comes, is the same or means nothing."""
+        chosen, longest = self._chosen(self.method), LONGEST_STEP * self.impact.slow_time_scale
+        mesh, steps = getattr(chosen, "mesh", None), getattr(chosen, "integrator", None)
+        if self.late and mesh is not None and (count := mesh.nodes(self.impact.half_length).size - 1) < FEWEST:
+            raise InputError(
+                f"{chosen.path}.mesh has {count} elements in a half beam of {self.impact.half_length:.6g} m, and "
+                f"{FEWEST} are the fewest: the error bar comes from a run with half as many"
+            )
+        for name in ("time_step", "flight_step") if self.late else ():
+            if (value := getattr(steps, name, None) or 0.0) > longest * (1.0 + 1e-5):
+                key = f"{chosen.path}.integrator.{name}"
+                raise InputError(f"{key} must be at most {longest:.6g} s for the whole beam (got {value:.6g})")
+        return chosen
 
     def _chosen(self, method: Method) -> Method:
         """``method`` as this question takes it: a whole beam's elements are the finer the sooner a run ends."""
@@ -102,9 +119,6 @@ class Question:
             end = self.until / self.impact.slow_time_scale
             finer = max(1.0, OF_SHORT * min(1.0, SHORT / end) ** (1.0 / 3.0))
             finer = min(finer * max(1.0, SOON / end) ** 0.5, FINEST)
-        longest = LONGEST_STEP * self.impact.slow_time_scale
-        if (step or 0.0) > longest:
-            raise InputError(f"integrator.time_step must be at most {longest:.3g} s for the whole beam (got {step!r})")
         return for_whole_beam(refined(method, finer) or method, self.impact)
 
     def companions(self) -> dict[str, tuple[Impact, Method]]:
@@ -157,7 +171,7 @@ class Question:
             if hasattr(self.method, "varied") and not stated:
                 one: Method | None = self._chosen(self.method.varied(self.impact, random))
             else:
-                one = refined(self._chosen(self.method), 2.0 ** random.uniform(-1.5, -0.5))
+                one = refined(self._own(), 2.0 ** random.uniform(-1.5, -0.5))
             if one is None:
                 raise InputError(
                     f"damping: without damping of the beam a whole impact is a band, and {self.method.path} varies "

@@ -37,8 +37,8 @@ LIMITS = {
     "damping": "the contact spreads, for which material damping has no closed form",
     "hysteretic loss": "the stiffness grows with the frequency, for which there is no closed form",
     "slope": "slopes are no longer small",
-    "shear": "reflections from the ends, loads, damping or slopes end it before shear deformation ceases to matter",
-    "wall": "reflections from the ends, loads, damping or slopes end it before the wall acts as a rigid one",
+    "shear": "another limit (ends, loads, damping or slopes) comes before shear deformation ceases to matter",
+    "wall": "another limit (ends, loads, damping or slopes) comes before the wall acts as a rigid one",
     "section": "the section yields",
 }
 BEFORE = {"shear": "shear deformation matters; for the reaction twice as long", "wall": "the wall gives way"}

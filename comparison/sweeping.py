@@ -90,8 +90,8 @@ def varied_from(text: str) -> tuple[str, list[Any]]:
     ends = [value_of(word) for word in given.split(":")]
     if len(ends) == 1 or (len(ends) != 3 and not numeric(ends)):  # a name may hold colons
         return key, [value_of(word) for word in words]
-    if len(ends) != 3 or not numeric(ends) or not isinstance(ends[2], int) or not 2 <= ends[2] <= MOST:
-        forms = "A:B:N, two numbers and how many values, from 2 on, or A,B,C"
+    if len(ends) != 3 or not _are_range(ends):
+        forms = f"A:B:N, two numbers and how many values, 2 to {MOST}, or A,B,C"
         raise InputError(f"--vary {key} takes {forms} (got {shortened(given)})")
     return key, [float(f"{value:.12g}") for value in np.linspace(*ends)]  # as one would type them
 
@@ -263,6 +263,11 @@ class SweepTable:
         if 1 < len(names) == len(self.rows):
             return "all rows"
         return names[0] if len(names) == 1 else f"{len(names)} rows, the first at {names[0]}"
+
+
+def _are_range(ends: Sequence[Any]) -> bool:
+    """Whether these are two numbers and how many values."""
+    return numeric(ends) and bool(np.all(np.isfinite(ends))) and isinstance(ends[2], int) and 2 <= ends[2] <= MOST
 
 
 def numeric(values: Sequence[Any]) -> bool:

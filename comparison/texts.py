@@ -204,9 +204,9 @@ def bounce_text(found: dict[str, Any], *, verbose: bool = False) -> str:
         "",
         beam_line(found["model"], found["velocity"]),
         "± is the error bar; a band is mean ± standard deviation of runs. Energies are shares of the initial energy",
-        "and the work of the loads, at the last contact (none while the beam stays): the end of the first hit, after",
-        "which it is off the wall for a period of its first mode at least. The largest moment and stress are those of",
-        f"the whole motion, from 0 to {1e3 * found['span'][1]:.4g} ms{' (one such period later)' * left}.",
+        "and the work of the loads, at the last contact: the end of the first hit, after which the beam is off the",
+        "wall for a period of its first mode at least (if it stays there is none). The largest moment and stress are",
+        f"those from 0 to {1e3 * found['span'][1]:.4g} ms{', a period of that mode after the last contact' * left}.",
         _hardest(found),
         *(f"Largest {what}, {unit}, {line}." for line in _over_damping(damped, name, scale)),
         *(_checks(found) if verbose else []),
@@ -243,7 +243,7 @@ def run_text(found: dict[str, Any], verbose: bool = False) -> str:
     behind = any(hit["wall"] == "opposite" for hit in found["hits"] or ())
     none = found["half_contact_length"]["value"] is None and found["total_impulse"]["value"] is not None
     lines = [
-        _compared(f"half contact length{', off the wall' * none}", found["half_contact_length"], "m"),
+        _compared(f"half contact length{' (off the wall)' * none}", found["half_contact_length"], "m"),
         _compared("impulse, of the front less the opposite" if behind else "impulse", found["total_impulse"], "N s"),
     ]
     peaks = {"moment": (f"largest bending moment, {until}", "N m"), "stress": (f"largest stress, {until}", "Pa")}

@@ -82,7 +82,8 @@ def _of_front(places: Array, scaling: Scaling) -> list[str]:
         k = min(int(np.searchsorted(places, scaling.front * math.sqrt(part))), places.size - 2)
         held = 2.0 / scaling.front * math.sqrt(part) / (places[k + 1] - places[k])
         if held < NEEDED:
-            return [f"under-resolved front: its bending length holds {held:.3g} elements at {when}, needs {NEEDED:g}"]
+            shown = math.floor(100.0 * held) / 100.0
+            return [f"under-resolved front: its bending length holds {shown:g} elements at {when}, needs {NEEDED:g}"]
     return []
 
 

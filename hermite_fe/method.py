@@ -122,8 +122,8 @@ class HermiteFE(Composition):
     def cross_checks(self, impact: Impact) -> dict[str, Self]:
         """Companions for error bars, by cause: one with the impact law of another scheme; below ``ONE_POINT`` also
         the same on half of the elements, as laws may agree by chance. Without shear their steps are twice as long:
-        they cost half, and the bar counts the error of the steps twice. None before a wall
-        that gives way, nor of contact that may pull."""
+        they cost half, and the bar counts the error of the steps twice. None before a wall that gives way, nor of
+        contact that may pull."""
         chosen = self.for_whole_beam(impact)
         integrator, contact = chosen.integrator, chosen.contact
         assert integrator is not None

@@ -176,6 +176,7 @@ def _with_bar(value: float, error: float) -> str:
     places = min(max(0, digits), 12)
     size = f"{error:.{places}f}" if digits <= places else f"{error:.{significant}g}"
     if 0.05 * error <= abs(value) < error:
+        value = float(f"{value:.1e}")
         digits = max(digits, 1 - math.floor(math.log10(abs(value))))
         places = min(max(0, digits), 12)
     return f"{round(value, digits) + 0.0:.{places}f} ± {size}"  # not −0

@@ -147,17 +147,19 @@ def emit(document: Any, as_json: bool, text: Callable[[], str]) -> None:
 def emit_with_files(
     document: Any, as_json: bool, text: Callable[[], str], out: Path | None, write: Callable[[Path], Any]
 ) -> None:
-    """Write the files of an answer, then :func:`emit` it: a reader who has read enough (``| head``) ends the program.
-    Raises :class:`InputError` for files that cannot be written once the answer, which they must not cost, is out."""
+    """Files come first, as a reader who has read enough (``| head``) ends the program. Where they cannot be written,
+    the answer is printed and then the error raised, of files and values as :class:`InputError`."""
     problem: Exception | None = None
     if out is not None:
         try:
             write(out)
-        except (OSError, ValueError) as error:
+        except Exception as error:  # none may cost the answer
             problem = error
     emit(document, as_json, text)
-    if problem is not None:
+    if isinstance(problem, (OSError, ValueError)):
         raise InputError(f"--out: {problem}") from problem
+    if problem is not None:
+        raise problem
 
 
 def printable(text: str) -> str:

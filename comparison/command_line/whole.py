@@ -61,7 +61,8 @@ def bounce(
             every.append(bouncing.bounce(one, method, **how, progress=bar.fraction))
     found, (_, method) = every[0], asked[0]
     with progress("hits", quiet):
-        followed = bouncing.follow_hits(found.impact, method, hits, first=found.history) if hits > 1 else []
+        how_often = (found.impact, method, hits)
+        followed, why = bouncing.followed_hits(*how_often, first=found.history) if hits > 1 else ([], "")
     rows = [{**vars(hit), "restitution": hit.restitution} for hit in followed]
     document, problem_of_files = found.to_dict(), ""
     if len(paths) > 1:
@@ -70,7 +71,7 @@ def bounce(
         document["hits"] = rows
     fewer = []
     if hits > 1 and len(rows) < hits:
-        fewer = [f"{len(rows)} of {hits} hits: {bouncing.why_no_more(found.impact, followed)}"]
+        fewer = [f"{len(rows)} of {hits} hits: {why}"]
     document["warnings"] += fewer
     if out is not None:
         try:

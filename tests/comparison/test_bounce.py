@@ -14,9 +14,9 @@ from scipy.integrate import solve_ivp
 from bent_beam import Impact, ImpactHistory, load_case
 from bent_beam.measure.numbers import Band, Number
 from bent_beam.measure.whole_impact import whole_impact
-from bent_beam.meshes import UniformMesh
+from bent_beam.meshes import GradedMesh, NodesMesh, UniformMesh
 from bent_beam.method import LONGEST_OF_WALL, separation_times, simulate_to_separation, time_on_wall
-from comparison.bouncing import bounce, case_of, follow_hits, followed_until, problem, why_no_more
+from comparison.bouncing import bounce, case_of, follow_hits, followed_hits, followed_until, problem
 from comparison.questions import Question
 from comparison.readable import milliseconds
 from comparison.store import RunStore
@@ -40,13 +40,21 @@ def test_error_bars_of_a_bounce_hold_the_converged_value(path, elements, widest)
     assert abs(restitution.value - 0.33636) <= restitution.bar < widest
     unsure = dataclasses.replace(found, numbers=found.numbers | {"last_contact": Number(0.5, 0.6)})
     (said,) = set(unsure.warnings) - set(found.warnings)
-    assert "touches the wall once more" in said and f"--set {path.path}.refine=2" in said
+    assert "whether the beam touches the wall once more" in said and f"--set {path.path}.refine=2" in said
 
 
 @pytest.mark.parametrize(("path", "scheme"), [(HermiteFE, MoreauJean), (ExudynModel, Trapezoidal)])
-def test_a_step_that_follows_no_mode_of_the_beam_is_refused(path, scheme) -> None:
-    with pytest.raises(ValueError, match=r"^integrator.time_step must be at most 0.05 s .* \(got 0.06\)"):
-        bounce(problem(0.5, 1e-2), path(integrator=scheme(time_step=0.06)))
+def test_a_step_that_follows_no_mode_and_elements_that_bend_like_none_are_refused(path, scheme) -> None:
+    """Whatever makes them so; metres for millimetres are one element, and the companion, with half as many, the run."""
+    step = rf"^{path.path}.integrator.time_step must be at most 0.05 s .* \(got 0.06\)"
+    for method in (path(integrator=scheme(time_step=0.06)), path(integrator=scheme(time_step=0.006), refine=0.1)):
+        with pytest.raises(ValueError, match=step):
+            bounce(problem(0.5, 1e-2), method)
+    for mesh in (UniformMesh(0.34), UniformMesh(20.0), NodesMesh((0.0, 0.3, 0.6, 1.0)), GradedMesh(50.0)):
+        with pytest.raises(ValueError, match=rf"^{path.path}.mesh has [23] elements in a half beam of 1 m, and 4 are"):
+            bounce(problem(0.5, 1e-2), path(mesh=mesh))
+    with pytest.raises(ValueError, match=r"exudyn.integrator.flight_step must be at most 0.05 s"):
+        bounce(problem(0.5, 1e-2), ExudynModel(integrator=Trapezoidal(time_step=1e-3, flight_step=0.2)))
 
 
 def test_a_bounce_off_a_wall_that_gives_way_has_its_largest_force_and_is_faster_than_off_a_rigid_one() -> None:
@@ -119,7 +127,7 @@ def test_a_run_until_separation_ends_off_the_wall_on_either_path(path, tmp_path)
     assert abs(found["energy"]["defect"]) < 1e-5 * found["energy"]["initial"]
     last = whole_impact(history).last_contact * history.impact.slow_time_scale
     assert found["last_contact"]["value"] == pytest.approx(last)
-    assert "half contact length, off the wall" in run_text(found) and f"{1e3 * last:.3g}" in run_text(found)
+    assert "half contact length (off the wall)" in run_text(found) and f"{1e3 * last:.3g}" in run_text(found)
     largest = np.argmax(np.abs(history.array("largest_moment")))
     assert found["peak_moment_time"] == pytest.approx(history.time[largest], rel=0.02)
     for kind in ("kinetic", "strain"):
@@ -202,14 +210,17 @@ def test_a_flight_under_a_load_does_not_count_and_where_it_is_too_long_its_end_i
     monkeypatch.setattr("comparison.bouncing.LONGEST_OF_WALL", 5.0)
     impact, few = problem(2.0, 0.02).replace(acceleration=0.15), HermiteFE(mesh=UniformMesh(0.1))
     first, unit = bounce(impact, few).history, impact.slow_time_scale
-    one, two = follow_hits(impact, few, 2, first=first)
+    one, two = followed_hits(impact, few, 2, first=first)[0]
     back = one.end - 2.0 * one.after / 0.15
     assert two.begin == pytest.approx(back, rel=0.05) and two.begin > 5.0 * unit
     assert followed_until(impact, [one]) == pytest.approx(5.0 * unit + back - one.end, rel=1e-12)
     monkeypatch.setattr("comparison.bouncing.FLIGHTS", 0.5)
-    assert len(follow_hits(impact, few, 2, first=first)) == 1
+    fewer, why = followed_hits(impact, few, 2, first=first)
     said = f"is back at about {milliseconds(back)}, and it is followed until {milliseconds(5.5 * unit)}"
-    assert why_no_more(impact, [one]).endswith(said) and why_no_more(impact, []).endswith("rests on its wall")
+    assert fewer == [one] and why.endswith(said)
+    assert followed_hits(impact.replace(acceleration=0.0), few, 2, first=first)[1].startswith(
+        "then the beam is off for good"
+    )
 
 
 @pytest.mark.verify

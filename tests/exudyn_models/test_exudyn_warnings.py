@@ -92,7 +92,7 @@ def test_a_soft_wall_may_be_entered_and_a_beam_of_its_own_length_may_end_anywher
 
 @pytest.mark.parametrize(
     ("near", "far", "says"),
-    [(0.1, 0.33, []), (0.1, 0.35, ["2.86 elements at the end time"]), (0.109, 0.1, ["2.9 elements at 0.1 of"])],
+    [(0.1, 0.33, []), (0.1, 0.35, ["2.85 elements at the end time"]), (0.109, 0.1, ["2.9 elements at 0.1 of"])],
 )
 def test_the_bending_length_of_the_front_needs_three_elements_at_both_times(near, far, says) -> None:
     """It is 1 Λ at the end time, with the front at 2 Λ, and √0.1 of both at a tenth of it."""

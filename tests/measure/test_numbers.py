@@ -16,6 +16,7 @@ def test_a_number_has_the_digits_of_its_error_bar_and_powers_of_ten_below_1e_4_a
         (Number(2e-4, 1e-5), "0.000200 ± 0.000010"), (Number(2e-5, 1e-6), "(2.00 ± 0.10)e-05"),
         (Number(9e5, 1e5), "900000 ± 100000"), (Number(1e6, 1e5), "(1.00 ± 0.10)e+06"),
         (Number(12.94, 53.0), "13 ± 50"), (Number(1018.0, 9051.0), "1000 ± 9000"), (Number(-9.6, 12.0), "-9.6 ± 12"),
+        (Number(0.996, 2.0), "1.0 ± 2"), (Number(99.7, 300.0), "100 ± 300"),
         (Band(2.0, 0.31, 5), "2.0 ± 0.3 (band of 5 runs)"), (Band(math.nan, math.nan, 5), "- (band of 5 runs)"),
     ):  # fmt: skip
         assert str(number) == written

@@ -32,7 +32,7 @@ DAMPED = "beam.curvature=0.1 beam.damping=0.01"  # η = 0.01 t*: bending runs 0.
         ("hermite", UNIFORM + "2.0", "cannot resolve the contact front"),
         ("hermite", LONG_STEPS, "time steps cannot resolve"),
         ("exudyn", UNIFORM + "0.02 beam.length=0.4", "reflected"),
-        ("exudyn", UNIFORM + "1.0", "holds 0.332 elements at the end time"),  # √(κ/ν · 2 · 1.1 T) m
+        ("exudyn", UNIFORM + "1.0", "holds 0.33 elements at the end time"),  # √(κ/ν · 2 · 1.1 T) m
         ("exudyn", "mesh.kind=graded mesh.element_length=0.02 mesh.growth=1.25", "grows by 25%"),
         ("exudyn", f"{BENT} exudyn.geometry.kind=linear exudyn.geometry.amplitude=1e-3", "linear range"),
         ("hermite", f"{DAMPED} {UNIFORM}0.1", "lifts off the wall"),
