@@ -123,17 +123,30 @@ def contacts(history: ImpactHistory, name: str = "impulse") -> tuple[Array, Arra
     return time, places
 
 
+def _shares(places: Array, nodes: Array) -> tuple[Array, Array]:
+    """Lower and upper ends, m, of the shares of the beam that contact points at ``places`` stand for: as far as halfway
+    to the neighbours, of those outside half a distance out."""
+    apart = np.diff(places)
+    if apart.size:
+        nearest = np.minimum(np.append(apart, np.inf), np.insert(apart, 0, np.inf))
+    else:
+        nearest = np.diff(nodes).min(keepdims=True)  # a point without neighbours
+    halfway = 0.5 * (places[:-1] + places[1:])
+    # No farther than the nearest neighbour is, so that a gap between two walls stays one; of a mesh that becomes
+    # coarser, where one distance is at most twice the one before, the shares still meet.
+    low = np.append(places[0] - 0.5 * nearest[0], np.maximum(halfway, places[1:] - nearest[1:]))
+    high = np.append(np.minimum(halfway, places[:-1] + nearest[:-1]), places[-1] + 0.5 * nearest[-1])
+    return low.clip(nodes[0], nodes[-1]), high.clip(nodes[0], nodes[-1])
+
+
 def _pushed(history: ImpactHistory, name: str, end: float) -> Array:
-    """Rectangles of time, ms, and place, m, in which a wall pushed until ``end``, s: each pushing node with its share
-    of the beam, half an element to either side. Shape (rectangles, 4 corners, 2)."""
+    """Rectangles of time, ms, and place, m, in which a wall pushed until ``end``, s: each pushing contact point with
+    its share of the beam. Shape (rectangles, 4 corners, 2)."""
     time, found = 1e3 * history.time, []
     pushing = acting(history.array(name))
     for k in np.flatnonzero(pushing.any(axis=1) & (history.time[:-1] <= end)):
-        x = history.positions(int(k))
-        borders = 0.5 * (x[:-1] + x[1:])
-        nodes = np.searchsorted(borders, history.contact_positions(int(k))[pushing[k]])
-        edges = np.concatenate([x[:1], borders, x[-1:]])
-        low, high = edges[nodes], edges[nodes + 1]
+        low, high = _shares(history.contact_positions(int(k)), history.positions(int(k)))
+        low, high = low[pushing[k]], high[pushing[k]]
         for bottom, top in zip(np.setdiff1d(low, high), np.setdiff1d(high, low)):  # neighbours are one
             found.append((time[k], time[k + 1], bottom, top))
             if history.sides == 1:
@@ -142,7 +155,8 @@ def _pushed(history: ImpactHistory, name: str, end: float) -> Array:
 
 
 def draw_zone(axis: Any, history: ImpactHistory, end: float) -> None:
-    """Where the wall pushes, over time; as far out as it does. A push of the middle alone is a line along the beam."""
+    """Where the wall pushes, over time; as far out as it does. Where the middle alone pushes, the axis is that of
+    the whole beam."""
     reach = 0.0
     for name, colour, label in (("impulse", FRONT, "wall"), ("opposite_impulse", BACK, "second wall")):
         if name not in history:

@@ -1,6 +1,7 @@
 """Pictures of a run: nothing is cut off, the number is marked, the wall is below, heights are to the scale stated."""
 
 import re
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -9,6 +10,7 @@ from called import answered, refused
 from histories import pushed_until, recorded, rod
 
 from bent_beam.cases import load_case
+from bent_beam.history import Variable
 from bent_beam.measure.numbers import Number
 from comparison import bounce, predict
 from comparison.figures import style
@@ -70,16 +72,43 @@ def test_a_value_that_is_largest_where_the_picture_ends_is_said_to_rise_still(en
         assert not mark.get_clip_on()  # at the end of the axis it is whole
 
 
-def test_each_pushing_node_is_drawn_with_half_an_element_to_either_side():
-    """Nodes at 0, 0.25 … 1 of the half beam: first the middle one, then it and the next, then the last one alone."""
-    given = np.outer([0.0, 1.0, 2.0, 2.0], np.eye(5)[0]) + np.outer([0.0, 0.0, 1.0, 1.0], np.eye(5)[1])
-    run = recorded(np.arange(4.0), given + np.outer([0.0, 0.0, 0.0, 1.0], np.eye(5)[4]))
+def drawn_zone(given, contact_x):
+    """Rectangles (start, lowest, stop, highest), ms and m, of the zone drawn of a half beam with nodes at 0, 0.25 … 1
+    that gives impulses ``given`` (times, contacts) at the places ``contact_x``."""
+    run, time = recorded(np.arange(float(len(given))), np.zeros((len(given), 5))), ("time", "contact")
+    places = {"contact_x": Variable(("contact",), np.array(contact_x), {}), "impulse": Variable(time, given, {})}
+    run = replace(run, variables={**run.variables, **places})
     with style.figure() as (_, axis):
-        draw_zone(axis, run, 3.0)
-    found = {(*part.vertices.min(axis=0), *part.vertices.max(axis=0)) for part in axis.collections[0].get_paths()}
-    middle = {(0.0, 0.0, 1e3, 0.125), (1e3, 0.0, 2e3, 0.375)}
-    upper = middle | {(2e3, 0.875, 3e3, 1.0)}
-    assert found == upper | {(start, -top, stop, -low) for start, low, stop, top in upper}
+        draw_zone(axis, run, float(run.time[-1]))
+    return {(*part.vertices.min(axis=0), *part.vertices.max(axis=0)) for part in axis.collections[0].get_paths()}
+
+
+def mirrored(upper):
+    return upper | {(start, -top, stop, -low) for start, low, stop, top in upper}
+
+
+def test_each_pushing_node_is_drawn_with_half_an_element_to_either_side():
+    """First the middle one, then it and the next, then the last one alone."""
+    given = np.array([[0.0, 0, 0, 0, 0], [1, 0, 0, 0, 0], [2, 1, 0, 0, 0], [2, 1, 0, 0, 1]])
+    found = drawn_zone(given, [0.0, 0.25, 0.5, 0.75, 1.0])
+    assert found == mirrored({(0.0, 0.0, 1e3, 0.125), (1e3, 0.0, 2e3, 0.375), (2e3, 0.875, 3e3, 1.0)})
+
+
+@pytest.mark.parametrize(
+    "places, which, zones",
+    [
+        ([0.125, 0.375, 0.625, 0.875], [0], [(0.0, 0.25)]),  # middles of elements
+        ([0.125, 0.375, 0.625, 0.875], [1, 2], [(0.25, 0.75)]),
+        ([0.0, 0.5, 1.0], [1, 2], [(0.25, 1.0)]),  # every other node
+        ([0.0, 0.125, 0.875, 1.0], [0, 1, 2, 3], [(0.0, 0.25), (0.75, 1.0)]),  # two walls
+        ([0.0, 0.125, 0.375, 0.875], [0, 1, 2, 3], [(0.0, 1.0)]),  # ever coarser
+        ([0.5], [0], [(0.375, 0.625)]),  # a stop
+    ],
+)
+def test_contact_points_anywhere_are_drawn_up_to_halfway_to_their_neighbours_and_no_gap_is_filled(places, which, zones):
+    given = np.zeros((2, len(places)))
+    given[1, which] = 1.0
+    assert drawn_zone(given, places) == mirrored({(0.0, low, 1e3, high) for low, high in zones})
 
 
 def test_contours_of_a_sweep_are_no_finer_than_its_bars_which_are_said_of_each_panel():
