@@ -7,7 +7,9 @@ import numpy as np
 from page_scripts import evaluated
 
 from bent_beam.cases import case_from_tables, load_case
+from comparison import predict
 from comparison.doubts import OVERDAMPED, SUNK, doubts
+from comparison.readable import REGIMES, SHORT_ZONE
 
 
 def test_the_page_doubts_a_speed_of_sound_and_a_strain_that_no_material_has_and_the_weight_of_an_added_mass() -> None:
@@ -41,6 +43,18 @@ def test_the_page_doubts_a_damping_and_a_wall_as_bentbeam_does() -> None:
         assert all(number in said for number in re.findall(r"(?:ratio of|ratio is|by some) ([\d.]+)", told))
         doubted += [part for part in words if part in said]
     assert doubted == [words[0]] * 2 + [words[1]] * 2 + [words[2]]
+
+
+def test_of_a_contact_that_stays_one_point_the_page_says_what_bentbeam_predict_does() -> None:
+    """A beam that shears has a short zone at first; one that does not, and a contact that spreads, have their words."""
+    typed = [{"velocity": 0.1}, {"velocity": 0.1, "model": "euler_bernoulli"}, {}]
+    expression = """given.map((typed) => {
+        const i = {...Beam.START, ...typed}, b = Beam.impact(i);
+        return [Words.verdict(b, Instants.solve(b).contact), Case.toml(i, b)]; })"""
+    found = evaluated(expression, typed)
+    assert [verdict for verdict, _ in found] == [SHORT_ZONE, REGIMES["discrete"], REGIMES["continuous"]]
+    for verdict, text in found:
+        assert verdict in str(predict(case_from_tables(tomllib.loads(text)), theory_only=True))
 
 
 def test_a_last_contact_within_its_bar_is_told() -> None:

@@ -12,9 +12,10 @@ const Words = (() => {
     return [written, symbol, runs ? `(band of ${runs} runs)` : ""].filter(Boolean).join(" ");
   }
 
-  /** What a contact does; contact as the theory solves it. */
+  /** What a contact does; contact as the theory, which is without shear, solves it. */
   const verdict = (b, { regime }) => (
-    WORDS.regimes[regime] + (b.wallStiffness ? " So it is on a rigid wall; this one gives way." : ""));
+    (b.shear && regime === "discrete" ? WORDS.short : WORDS.regimes[regime])
+    + (b.wallStiffness ? " So it is on a rigid wall; this one gives way." : ""));
 
   /** When the first instants hold. */
   function holding({ from, until, forceUntil, by, after }, b, { regime }) {
