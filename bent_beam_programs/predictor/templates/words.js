@@ -57,7 +57,7 @@ const Words = (() => {
       [!settled, "Without damping the outcome is irregular and does not converge: a band is given."],
       [!settled, `${COMMAND} takes more runs for it.`],
       [wides, "The bars are wide: elements, steps and contact law decide here."],
-      [late, "The beam nearly touches the wall once more: if it does, the last contact comes much later and the rebound may change by more than its bar."],
+      [late, "It is not sure whether the beam touches the wall once more: the last contact may be much earlier or later, and the rebound may change by more than its bar."],
       [wides || late, `${COMMAND} --set hermite.refine=2 takes finer elements.`],
       [!b.shear, "Short waves are faster without shear; this page takes few elements, and its bars count that."],
       [whole && restitution.value === null, (pressed ? "The loads keep the beam on the wall" : "A run ended with the beam at the wall") + ": no restitution is given."],
