@@ -91,10 +91,12 @@ def test_laws_that_agree_by_chance_are_compared_on_half_of_the_elements_on_the_p
 def test_a_value_is_rounded_to_the_first_digit_of_its_bar_as_python_writes_it() -> None:
     rng = np.random.default_rng(8)
     values = rng.choice([-1.0, 1.0], 300) * 10.0 ** rng.uniform(-7.0, 9.0, 300)
-    pairs = [(408.3, 48.0), (0.97, 0.096), (3.0, 20.0), (2.0, 0.0), (12.94, 53.0), (1018.0, 9051.0), (0.32, 2e4)]
+    pairs = [(408.3, 48.0), (0.97, 0.096), (3.0, 20.0), (2.0, 0.0), (12.94, 53.0), (1018.0, 9051.0),
+        (0.996, 2.0), (9.97, 20.0), (99.7, 300.0), (0.32, 2e4)]  # fmt: skip
     pairs += zip(values.tolist(), (abs(values) * 10.0 ** rng.uniform(-5.0, 2.0, 300)).tolist(), strict=True)
     written = evaluated("given.map(([value, error]) => Draw.bar(value, error))", pairs)
     power = re.compile(r"·10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)")
     plain = [power.sub(lambda m: f"e{int(m[1].translate(RAISED)):+03d}", text).replace("−", "-") for text in written]
-    assert plain[4:6] == ["13 ± 50", "1000 ± 9000"]  # a value within its bar keeps two digits
+    two_digits = ["13 ± 50", "1000 ± 9000", "1.0 ± 2", "10 ± 20", "100 ± 300"]
+    assert plain[4:9] == two_digits  # a value within its bar keeps two digits
     assert plain == [str(Number(*pair)) if pair[1] else "2 ± 0" for pair in pairs]

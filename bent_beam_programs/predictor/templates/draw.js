@@ -33,7 +33,8 @@ const Draw = (() => {
       return [written, size, `·${text(10 ** power, 1).slice(2)}`];
     }
     const size = Math.abs(value), within = 0.05 * first <= size && size < first;
-    const own = within ? Math.max(digits, 1 - Math.floor(Math.log10(size))) : digits;
+    const two = Number(size.toPrecision(2)); // rounded before its digits are counted: 0.996 becomes 1.0
+    const own = within ? Math.max(digits, 1 - Math.floor(Math.log10(two))) : digits;
     return [fixed(value, own), fixed(first, digits), ""];
   }
   function bar(value, error) {
