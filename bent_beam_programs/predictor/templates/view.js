@@ -160,15 +160,18 @@
   async function open() {
     const [file] = find("#open").files, note = find("#note");
     if (!file) return;
-    try {
-      Form.set({ ...Case.read(await file.text()), units: inputs().units });
-      note.textContent = `${file.name} is read.`;
-      update();
+    let read = null;
+    try { // what throws after Form.set has changed the form
+      read = Case.read(await file.text());
     } catch (error) {
       note.textContent = "";
       refuse(`${file.name} is not read: the form and its numbers are unchanged. ${error.message}.`);
     }
     find("#open").value = "";
+    if (!read) return;
+    Form.set({ ...read, units: inputs().units });
+    note.textContent = `${file.name} is read.`;
+    update();
   }
   async function copyLink() {
     try {
