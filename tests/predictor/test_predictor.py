@@ -156,10 +156,15 @@ def test_cases_are_read_and_what_the_page_lacks_is_refused_by_name() -> None:
              for name in ("tube", "drill_pipe", "rail", "ruler", "tube_between_plates")}  # fmt: skip
     for fall in ("drop_height = 0.05\ngravity_angle = 30.0", "velocity = 1.0\ngravity = 9.81\ngravity_angle = 100.0"):
         texts[fall] = ROD.replace("velocity = 1.0", fall)
+    texts["misspelt"] = texts["tube"].replace("\nlength", "\nlenght")
     texts["nonsense"] = texts["tube"].replace("[run]", "[exudyn]\nrun = true\n[run]")
     found = dict(zip(texts, evaluated(READ, list(texts.values())), strict=True))
-    between = "beam.ends, wall.from, wall.to are not on this page: take bentbeam simulate"
+    between = (
+        "beam.ends, wall.from, wall.to are not on this page (bentbeam simulate takes them if they are spelled right)"
+    )
     assert found.pop("tube_between_plates") == between
+    misspelt = "beam.lenght is not on this page (bentbeam simulate takes it if it is spelled right)"
+    assert found.pop("misspelt") == misspelt
     assert "run = true is not a number" in found.pop("nonsense")
     for name, read in found.items():
         impact = case_from_tables(tomllib.loads(texts[name])).impact
@@ -204,7 +209,9 @@ def test_of_a_beam_that_shears_without_a_shape_the_page_names_commands_that_take
     assert plain.endswith('beam.mass_per_length are not on this page: give a [section] of kind "general" instead')
     for said in (sheared, of_section):
         assert "beam.shear_stiffness" in said and "general" not in said
-        assert said.endswith("take bentbeam predict or bentbeam bounce")
+        assert said.endswith(
+            "this page knows shear only for a section with a shape: take bentbeam predict or bentbeam bounce"
+        )
     case = case_from_tables(tomllib.loads(general))
     assert (
         case.impact.shear_stiffness == 1e7 and comparable(case.impact) and bounce(case, case.method("hermite")).numbers

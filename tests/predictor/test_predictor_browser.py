@@ -78,7 +78,7 @@ def test_a_mistake_takes_no_button_away(chromium: Any, address: str) -> None:
     buttons = ("save", "copy", "reset")
     assert all(browser.find_element("id", name).is_displayed() for name in buttons)
     assert ask(browser, "document.querySelector('[for=open]').offsetParent !== null")
-    assert shown(browser, "case") == before and "of before" in shown(browser, "cannot")
+    assert shown(browser, "case") == before and "before the mistake" in shown(browser, "cannot")
     browser.find_element("id", "reset").click()
     assert ask(browser, "document.getElementById('in-velocity').value") == "1"
     assert ask(browser, "document.getElementById('answer').offsetParent !== null")

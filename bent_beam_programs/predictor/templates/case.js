@@ -109,18 +109,17 @@ const Case = (() => {
     "wall.damping_ratio": (i, v) => { i.wall_damping_ratio = v; },
   };
 
-  /** What to do with keys that this page does not have. */
+  /** What to do with keys that this page does not have; of all others see `lacking`. */
   const INSTEAD = [
     [/^beam\.(damping$|loss_|hysteretic)/, "give beam.damping_ratio instead, or take bentbeam bounce"],
     [/^impact\.(amplitude|frequency|angular_)/, "give impact.velocity instead"],
     [/^beam\.(bending_stiffness|mass_per_length|section_height)$/, 'give a [section] of kind "general" instead'],
-    [/./, "take bentbeam simulate"],
   ];
   const OF_SHEAR = /^beam\.(bending_stiffness|mass_per_length|section_height|shear_stiffness|rotary_inertia)$/;
   const COMMANDS = "bentbeam predict or bentbeam bounce";
   function instead(name, sheared) {
-    if (sheared && OF_SHEAR.test(name)) return `shear is known here of a section with a shape alone, take ${COMMANDS}`;
-    return INSTEAD.find(([which]) => which.test(name))[1];
+    if (sheared && OF_SHEAR.test(name)) return `this page knows shear only for a section with a shape: take ${COMMANDS}`;
+    return INSTEAD.find(([which]) => which.test(name))?.[1] ?? "";
   }
   /** Sentences on these keys, of one advice together; null if there are none. */
   function lacking(names, sheared) {
@@ -129,7 +128,11 @@ const Case = (() => {
       const advice = instead(name, sheared);
       advised.set(advice, [...(advised.get(advice) || []), name]);
     }
-    const said = ([advice, of]) => `${of.join(", ")} ${of.length > 1 ? "are" : "is"} not on this page: ${advice}`;
+    const said = ([advice, of]) => {
+      const [are, them, they] = of.length > 1 ? ["are", "them", "they are"] : ["is", "it", "it is"];
+      const end = advice ? `: ${advice}` : ` (bentbeam simulate takes ${them} if ${they} spelled right)`;
+      return `${of.join(", ")} ${are} not on this page${end}`;
+    };
     return [...advised].map(said).join("; ") || null;
   }
 

@@ -161,7 +161,7 @@
     const [file] = find("#open").files, note = find("#note");
     if (!file) return;
     let read = null;
-    try { // what throws after Form.set has changed the form
+    try { // reading only: a mistake after Form.set would leave a changed form
       read = Case.read(await file.text());
     } catch (error) {
       note.textContent = "";
