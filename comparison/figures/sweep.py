@@ -114,7 +114,9 @@ def _map(axis: Any, found: SweepTable, name: str) -> None:
     if shown.count() and shown.max() > shown.min():
         smooth = _between(x, y, shown)
         low, high = float(shown.min()), float(shown.max())
-        parts = np.clip((high - low) / max(float(np.nanmax(bars)), 1e-300), FEWEST, LEVELS)  # no finer than the bars
+        # No finer than the bars are in general: the few rows whose bars are wider have a ring.
+        bar = float(np.median(bars[bars > 0.0])) if (bars > 0.0).any() else 1e-300
+        parts = np.clip((high - low) / bar, FEWEST, LEVELS)
         levels = MaxNLocator(int(parts), min_n_ticks=1).tick_values(low, high)
         field = axis.contourf(*smooth, levels, cmap="YlGnBu", alpha=0.8)
         lines = axis.contour(*smooth, levels, colors="black", linewidths=0.4)
@@ -160,8 +162,11 @@ def _note(found: SweepTable, mapped: list[str]) -> str:
 
 
 def _bars_of(found: SweepTable, name: str) -> str:
-    """The bars of a number in a few words, in the unit of its map."""
+    """The bars of a number in a few words, in the unit of its map, of the rows that have one."""
     pairs = [pair for pair in _values(found, name) if pair]
     scale, unit = unit_for(WHOLE[name].unit, [value for value, _ in pairs])
-    middle, widest = (f"{scale * size([bar for _, bar in pairs]):.2g} {unit}".rstrip() for size in (np.median, np.max))
+    bars = [scale * bar for _, bar in pairs if bar]
+    if not bars:
+        return f"{WHOLE[name].heading}: no bar"
+    middle, widest = (f"{readable(size(bars), 2)} {unit}".rstrip() for size in (np.median, np.max))
     return f"{WHOLE[name].heading} ± {middle} (median), at most ± {widest}"

@@ -111,23 +111,40 @@ def test_contact_points_anywhere_are_drawn_up_to_halfway_to_their_neighbours_and
     assert drawn_zone(given, places) == mirrored({(0.0, low, 1e3, high) for low, high in zones})
 
 
-def test_contours_of_a_sweep_are_no_finer_than_its_bars_which_are_said_of_each_panel():
-    vary = {"impact.velocity": [1.0, 2.0, 3.0], "beam.length": [1.0, 2.0, 3.0]}
+def map_of(stresses, restitutions):
+    """The picture of a sweep over three velocities and three lengths with these numbers, a row each."""
     rows = [
-        SimpleNamespace(yield_stress=None, numbers={"peak_stress": Number(1e7 * (1 + k), 1e5), "restitution": e})
-        for k, e in enumerate(Number(0.1 + 0.05 * k, bar) for k, bar in enumerate([0.01] * 8 + [0.11]))
+        SimpleNamespace(yield_stress=None, numbers={"peak_stress": stress, "restitution": restitution})
+        for stress, restitution in zip(stresses, restitutions, strict=True)
     ]
-    fig = sweep_figure(
-        SimpleNamespace(vary=vary, rows=rows, units={"impact.velocity": "m/s", "beam.length": "m"}, title="")
-    )
+    vary = {"impact.velocity": [1.0, 2.0, 3.0], "beam.length": [1.0, 2.0, 3.0]}
+    units = {"impact.velocity": "m/s", "beam.length": "m"}
+    return sweep_figure(SimpleNamespace(vary=vary, rows=rows, units=units, title=""))
+
+
+STRESSES = [Number(1e7 * (1 + k), 1e5) for k in range(9)]
+
+
+@pytest.mark.parametrize("bars, finest, coarsest", [([0.01] * 8 + [0.11], 0.04, 0.06), ([0.11] * 9, 0.11, 0.25)])
+def test_contours_of_a_sweep_are_no_finer_than_its_median_bar_and_the_bars_are_said(bars, finest, coarsest):
+    """One wide row has a ring and leaves the contours of all others."""
+    fig = map_of(STRESSES, [Number(0.1 + 0.05 * k, bar) for k, bar in enumerate(bars)])
     stress, restitution, *colour_bars = fig.axes
     assert [axis.get_title() for axis in (stress, restitution)] == ["largest stress  (MPa)", "restitution"]
     assert (stress.get_xlabel(), stress.get_ylabel()) == ("velocity  (m/s)", "length  (m)")
     steps = [np.diff(axis.get_yticks()).min() for axis in colour_bars]
-    assert steps[0] <= 15.0 and 0.11 <= steps[1] <= 0.25
+    assert steps[0] <= 15.0 and finest <= steps[1] <= coarsest
+    rings = sum(len(line.get_xdata()) for line in restitution.lines if line.get_marker() == "o")
+    assert rings == sum(bar > 0.1 * (0.1 + 0.05 * k) for k, bar in enumerate(bars))
     assert all(text.get_clip_on() is False for axis in (stress, restitution) for text in axis.texts)
     said = fig.legends[0].get_title().get_text()
-    assert "largest stress ± 0.1 MPa (median), at most ± 0.1 MPa; restitution ± 0.01 (median), at most ± 0.11." in said
+    assert f"± 0.1 MPa (median), at most ± 0.1 MPa; restitution ± {bars[0]} (median), at most ± {bars[-1]}." in said
+
+
+def test_a_map_says_its_bars_without_powers_of_ten_and_counts_none_that_is_missing():
+    stresses = [Number(1e9 * (1 + k), 1.2e8 if k < 2 else None) for k in range(9)]
+    said = map_of(stresses, [Number(0.1 + 0.05 * k) for k in range(9)]).legends[0].get_title().get_text()
+    assert "largest stress ± 120 MPa (median), at most ± 120 MPa; restitution: no bar." in said
 
 
 def test_predict_writes_document_and_picture_and_refuses_without_a_simulation(tmp_path):
