@@ -91,7 +91,7 @@ def varied_from(text: str) -> tuple[str, list[Any]]:
     if len(ends) == 1 or (len(ends) != 3 and not numeric(ends)):  # a name may hold colons
         return key, [value_of(word) for word in words]
     if len(ends) != 3 or not _are_range(ends):
-        forms = f"A:B:N, two numbers and how many values, 2 to {MOST}, or A,B,C"
+        forms = f"A:B:N, two numbers and how many values, from 2 on, or A,B,C; {MOST} values at most"
         raise InputError(f"--vary {key} takes {forms} (got {shortened(given)})")
     return key, [float(f"{value:.12g}") for value in np.linspace(*ends)]  # as one would type them
 
