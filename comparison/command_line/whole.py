@@ -8,7 +8,7 @@ import typer
 
 from bent_beam.errors import InputError
 from comparison.command_line import options
-from comparison.command_line.options import emit, end_of_rows, folder_for, of_path, progress, setting_names
+from comparison.command_line.options import end_of_rows, folder_for, of_path, progress, setting_names
 
 if TYPE_CHECKING:
     from bent_beam import Case, Method
@@ -61,10 +61,10 @@ def bounce(
             every.append(bouncing.bounce(one, method, **how, progress=bar.fraction))
     found, (_, method) = every[0], asked[0]
     with progress("hits", quiet):
-        how_often = (found.impact, method, hits)
-        followed, why = bouncing.followed_hits(*how_often, first=found.history) if hits > 1 else ([], "")
+        follow = bouncing.followed_hits
+        followed, why = follow(found.impact, method, hits, first=found.history) if hits > 1 else ([], "")
     rows = [{**vars(hit), "restitution": hit.restitution} for hit in followed]
-    document, problem_of_files = found.to_dict(), ""
+    document = found.to_dict()
     if len(paths) > 1:
         document["paths"] = [{"path": name, **one.to_dict()} for name, one in zip(paths, every)]
     if hits > 1:
@@ -73,11 +73,9 @@ def bounce(
     if hits > 1 and len(rows) < hits:
         fewer = [f"{len(rows)} of {hits} hits: {why}"]
     document["warnings"] += fewer
-    if out is not None:
-        try:
-            document["files"] = [str(file) for file in found.write(out, document)]
-        except OSError as error:  # the answer is worth more than its files
-            problem_of_files = f"--out: {error}"
+
+    def write(folder: Path) -> None:
+        document["files"] = [str(file) for file in found.write(folder, document)]
 
     def text() -> str:
         tables = [one.text(verbose=verbose) for one in every]
@@ -88,9 +86,7 @@ def bounce(
         said = [] if case is not None else made_up
         return "\n".join([*titled, *said, *table, *(f"warning: {line}" for line in fewer)])
 
-    emit(document, as_json, text)
-    if problem_of_files:
-        raise InputError(problem_of_files)
+    options.emit_with_files(document, as_json, text, out, write)
 
 
 def _asked(
