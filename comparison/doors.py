@@ -142,13 +142,10 @@ def sweep(
     unused = {} if timed else {"run": "the last separation ends a row"}
     check_effect(assignments, [path], unused, "--set")
     check_effect(vary, [path], unused, "vary:")
+
+    def died(i: int, why: str) -> Row:
+        return Row(cases[i][0], reason=why)
+
     calls = [(varied, case, path, RunStore.usual(fresh)) for varied, case in cases]
-    rows = run_all(
-        row_of,
-        calls,
-        jobs=jobs,
-        scheduler=scheduler,
-        progress=progress,
-        on_death=lambda i, why: Row(cases[i][0], reason=why),
-    )
+    rows = run_all(row_of, calls, jobs=jobs, scheduler=scheduler, progress=progress, on_death=died)
     return Swept(str(tables.get("title", "")), path, given, rows)

@@ -21,18 +21,9 @@ from bent_beam.measure.moments import Moments, moments, unresolved_at_end
 from bent_beam.measure.numbers import MISSING, Number, number_of
 from bent_beam.measure.reduction import hold_of, pull_of, wall_peaks
 from bent_beam.method import Method, chosen_for, refined, simulated
+from comparison import rows
 from comparison.questions import ERROR_BARS
-from comparison.rows import (
-    MatchQuestion,
-    MatchRow,
-    about,
-    first_order_epsilon,
-    lost_row,
-    match_document,
-    match_table,
-    reason_of,
-    with_theory,
-)  # fmt: skip
+from comparison.rows import MatchQuestion, MatchRow
 from comparison.runs import Run, kept
 from comparison.store import RunStore
 from comparison.workers import Clock, Count, run_all
@@ -80,8 +71,7 @@ def _moments(run: Run) -> Moments:
 def _run(
     store: RunStore, duration: float, clock: Clock | None, method: Method, impact: Impact, uniform: bool = False
 ) -> Run:
-    """A run to ``duration`` (t*), from the store where it is there, against the clock. Raises :class:`Refused` for what
-    the method refuses, before its run or in it."""
+    """A run to ``duration`` (t*), or what is kept of it, against the clock. Raises :class:`Refused`."""
     if reason := method.refuses(impact):
         raise Refused(str(reason))
 
@@ -120,8 +110,7 @@ class _Estimates:
 def _estimates(
     question: MatchQuestion, factor: float, run: Callable[..., Run], epsilon: float | None = None
 ) -> _Estimates:
-    """Run and estimate at ``factor`` times the method's own resolution; ``epsilon`` is the largest ε, ``None``: chosen.
-    Raises :class:`Refused` for what the method refuses."""
+    """Run and estimate at ``factor`` times the own resolution. epsilon : the largest. Raises :class:`Refused`."""
     asked, first, bare = question.method, question.first, question.bare
     method = refined(asked, factor)
     if method is None:
@@ -131,7 +120,7 @@ def _estimates(
         return _Estimates([alone])
     if epsilon is None:
         perturbation = getattr(asked, "perturbation", PERTURBATION)
-        epsilon = first_order_epsilon(leading_order(_moments(alone)), first, perturbation, question.duration)
+        epsilon = rows.first_order_epsilon(leading_order(_moments(alone)), first, perturbation, question.duration)
     largest = question.loaded(epsilon)
     if reason := method.refuses(largest):
         raise Refused(str(reason))
@@ -146,8 +135,7 @@ def _estimates(
 def answer(question: MatchQuestion, store: RunStore, limit: float | None = None) -> MatchRow:
     """Simulate and estimate one row; companion runs at other resolutions say what the error bar is.
 
-    limit : s, of the row. Raises :class:`Refused`, :class:`bent_beam.SimulationError`,
-    :class:`bent_beam.errors.TimeLimitError`.
+    limit : s, of the row. Raises :class:`Refused`, ``SimulationError``, ``TimeLimitError`` (:mod:`bent_beam.errors`).
     """
     run = partial(_run, store, question.duration, None if limit is None else Clock(limit))
     fine = _estimates(question, question.refine, run)
@@ -168,16 +156,15 @@ def answer(question: MatchQuestion, store: RunStore, limit: float | None = None)
         warnings.append(f"wide error bar: λ₀ = {leading.lambda0}, r₀ = {leading.r0}")
     if estimate is not None and estimate.r1.spread > WIDE_FIRST * max(abs(estimate.r1.known), 1.0):
         warnings.append(f"wide error bar: r₁ = {estimate.r1}")
-    numbers = with_theory(question, leading, estimate)
+    numbers = rows.with_theory(question, leading, estimate)
     if estimate is not None and question.kappa_over_nu < 1.0 and numbers["lambda1"].value is None:
-        warnings.append(
-            f"λ₁ is missing: the run shows no zone, λ₀ = {leading.lambda0} is not larger than its error bar"
-        )
+        no_zone = f"the run shows no zone, λ₀ = {leading.lambda0} is not larger than its error bar"
+        warnings.append(f"λ₁ is missing: {no_zone}")
     warnings += _of_rigid_wall(question)
     readings = [r.reading for r in fine.runs]
     holds = [reading["hold"] for reading in readings if reading["hold"]]
     return MatchRow(
-        **about(question),
+        **rows.about(question),
         **numbers,
         peak_force=_peak_force(question, [found.runs[0] for found in (fine, *others)]),
         lift=leading.lift,
@@ -225,7 +212,7 @@ def _attempt(question: MatchQuestion, store: RunStore, limit: float | None) -> M
     try:
         return answer(question, store, limit)
     except ANY_FAILURE as error:
-        return lost_row(question, reason_of(error), refused=isinstance(error, Refused))
+        return rows.lost_row(question, rows.reason_of(error), refused=isinstance(error, Refused))
 
 
 class Matched(list[MatchRow]):
@@ -233,10 +220,10 @@ class Matched(list[MatchRow]):
 
     def to_dict(self) -> dict[str, Any]:
         """The contract of ``bentbeam match --json``."""
-        return match_document(self)
+        return rows.match_document(self)
 
     def __str__(self) -> str:
-        return match_table(self)
+        return rows.match_table(self)
 
     def plot(self) -> Any:
         """λ₀ and r₀ over κ/ν on the theory's curves, as a Matplotlib figure."""
@@ -268,13 +255,9 @@ def match(
     """
     if limit is not None:
         positive("limit", limit)
+
+    def died(i: int, why: str) -> MatchRow:
+        return rows.lost_row(asked[i], why)
+
     calls = [(question, store or RunStore(None), limit) for question in asked]
-    rows = run_all(
-        _attempt,
-        calls,
-        jobs=jobs,
-        scheduler=scheduler,
-        progress=progress,
-        on_death=lambda i, why: lost_row(asked[i], why),
-    )
-    return Matched(rows)
+    return Matched(run_all(_attempt, calls, jobs=jobs, scheduler=scheduler, progress=progress, on_death=died))

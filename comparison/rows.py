@@ -190,8 +190,7 @@ def questions(
 
 
 def with_theory(question: MatchQuestion, leading: Any, estimate: Any) -> dict[str, Any]:
-    """The numbers of a row with the theory's beside them. λ₁ is missing where a run does not show the zone that a flat
-    bow has; a sharp one has none, and λ₁ = 0."""
+    """The numbers of a row beside the theory's. λ₁ is missing where a run does not show the zone of a flat bow."""
     from theory import contact_parameters
 
     exact = contact_parameters(question.kappa_over_nu, **question.loads)
@@ -206,15 +205,9 @@ def with_theory(question: MatchQuestion, leading: Any, estimate: Any) -> dict[st
 
 def about(question: MatchQuestion) -> dict[str, Any]:
     """The fields of a row that its question says."""
-    return {
-        "label": question.method.label,
-        "path": question.method.path,
-        "settings": settings_of(question.method),
-        "kappa_over_nu": question.kappa_over_nu,
-        **question.loads,
-        "refine": question.refine,
-        "wall": question.wall,
-    }
+    method, asked = question.method, ("kappa_over_nu", "refine", "wall")
+    of_method = {"label": method.label, "path": method.path, "settings": settings_of(method)}
+    return of_method | question.loads | {name: getattr(question, name) for name in asked}
 
 
 def lost_row(question: MatchQuestion, reason: str, *, refused: bool = False) -> MatchRow:
