@@ -198,8 +198,7 @@ def predict_case(
     """Theory beside simulation at ``times`` (s, each ≥ 0), and, with ``whole``, the whole impact.
 
     store : where runs are kept. progress : called with the finished fraction of the simulations.
-    Raises ``ValueError`` for what the theory does not cover, :class:`bent_beam.SimulationError` where a simulation
-    cannot finish.
+    Raises ``ValueError`` for what the theory does not cover, and :class:`bent_beam.SimulationError`.
     """
     impact, method = case.impact, None if theory_only else case.method(PATH)
     warnings = doubts(impact, case.section)
@@ -226,23 +225,19 @@ def predict_case(
     by_all = set.intersection(*said_by.values()) if said_by else set()
     warnings += by_all
     warnings += [f"run to {milliseconds(time)}: {line}" for time, lines in said_by.items() for line in lines - by_all]
-    warnings += [
-        f"at {milliseconds(time)}: {line}"
-        for time, numbers in zip(times, simulated)
-        for line in told_by(numbers, case.section)
-    ]
+    for time, numbers in zip(times, simulated):
+        warnings += [f"at {milliseconds(time)}: {line}" for line in told_by(numbers, case.section)]
     if last > latest:
         warnings.append(f"times beyond {latest:.4g} s ({LATEST:g} T*) are not simulated here: bentbeam simulate")
-    impact_found: Bounce | None = None
-    why: str | None = None
-    if whole:
-        try:
-            impact_found = bounce(case, method, store=store, progress=lambda done: told(1.0 - share * (1.0 - done)))
-        except (ValueError, SimulationError) as error:
-            why = in_keys(str(error))
     agreement = _agreement(checked, prediction, found[within], len(times)) if within in found else None
-    said = sorted(set(warnings))
-    return PredictedCase(case, prediction, simulated, agreement, impact_found, why, said, found.get(within))
+    answer = PredictedCase(case, prediction, simulated, agreement, None, None, sorted(set(warnings)), found.get(within))
+    if not whole:
+        return answer
+    try:
+        told_of_whole = bounce(case, method, store=store, progress=lambda done: told(1.0 - share * (1.0 - done)))
+    except (ValueError, SimulationError) as error:
+        return replace(answer, no_whole=in_keys(str(error)))
+    return replace(answer, whole=told_of_whole)
 
 
 def runs_to(
@@ -259,8 +254,7 @@ def numbers_at(runs: Runs | None, case: Case) -> dict[str, Number]:
 
 
 def _agreement(checked: Sequence[float], prediction: Prediction, runs: Runs, first: int) -> dict[str, float] | None:
-    """The longest interval between checked instants in which half length and impulse agree within bars and 2 %;
-    ``None`` where they agree at none."""
+    """The longest interval between checked instants in which half length and impulse agree within bars and 2 %."""
     agree = []
     for i, row in enumerate(prediction.times[first:]):
         found = instant_numbers(runs.part(lambda reading, i=i: reading["before"][i]))  # type: ignore[misc]

@@ -60,19 +60,15 @@ def bounce(
         with progress(f"{method.path}: the whole impact", quiet) as bar:
             every.append(bouncing.bounce(one, method, **how, progress=bar.fraction))
     found, (_, method) = every[0], asked[0]
-    with progress("hits", quiet):
-        follow = bouncing.followed_hits
-        followed, why = follow(found.impact, method, hits, first=found.history) if hits > 1 else ([], "")
-    rows = [{**vars(hit), "restitution": hit.restitution} for hit in followed]
-    document = found.to_dict()
+    document, rows, fewer = found.to_dict(), list[dict[str, Any]](), list[str]()
     if len(paths) > 1:
         document["paths"] = [{"path": name, **one.to_dict()} for name, one in zip(paths, every)]
     if hits > 1:
-        document["hits"] = rows
-    fewer = []
-    if hits > 1 and len(rows) < hits:
-        fewer = [f"{len(rows)} of {hits} hits: {why}"]
-    document["warnings"] += fewer
+        with progress("hits", quiet):
+            followed, why = bouncing.followed_hits(found.impact, method, hits, first=found.history)
+        document["hits"] = rows = [{**vars(hit), "restitution": hit.restitution} for hit in followed]
+        fewer = [f"{len(rows)} of {hits} hits: {why}"] if len(rows) < hits else []
+        document["warnings"] += fewer
 
     def write(folder: Path) -> None:
         document["files"] = [str(file) for file in found.write(folder, document)]
@@ -82,9 +78,8 @@ def bounce(
         titled = tables if len(paths) == 1 else [f"{name}\n{table}\n" for name, table in zip(paths, tables)]
         of = [f"Hits, {paths[0]}"] if len(paths) > 1 else []
         table = ["", *of, hits_table(rows, OF_ONE_WALL)] if rows else []
-        made_up = ["Of a beam with L/2 = EI = mu = V0 = 1 in SI units: N, ms and m are those of no real beam."]
-        said = [] if case is not None else made_up
-        return "\n".join([*titled, *said, *table, *(f"warning: {line}" for line in fewer)])
+        made_up = "Of a beam with L/2 = EI = mu = V0 = 1 in SI units: N, ms and m are those of no real beam."
+        return "\n".join([*titled, *[made_up] * (case is None), *table, *(f"warning: {line}" for line in fewer)])
 
     options.emit_with_files(document, as_json, text, out, write)
 

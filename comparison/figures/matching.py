@@ -112,15 +112,11 @@ def draw_first_order(rows: Sequence[MatchRow], out: Path) -> list[Path]:
                 line = {**style.THEORY, "lw": 0.9, "ls": dashes, "label": named}
                 axis.plot(*_curve(mine, first, what), **line)
                 for label, mark in marks.items():
-                    points = [
-                        (r.kappa_over_nu, getattr(r, what).scaled(1.0 / r.axial if first is None else 1.0))
-                        for r in mine
-                        if r.label == label and getattr(r, what).measured
-                    ]
-                    if points:
-                        bars = [abs(c.bar or 0.0) for _, c in points]
-                        x, values = [k for k, _ in points], [c.known for _, c in points]
-                        style.bars(axis, x, values, bars, {**mark, "label": None})
+                    own = [r for r in mine if r.label == label and getattr(r, what).measured]
+                    found = [getattr(r, what).scaled(1.0 / r.axial if first is None else 1.0) for r in own]
+                    if own:
+                        values, bars = [n.known for n in found], [n.bar or 0.0 for n in found]
+                        style.bars(axis, [r.kappa_over_nu for r in own], values, bars, {**mark, "label": None})
                         largest = max(largest, *map(abs, values))
             if largest > 30:
                 style.linear_within(axis, 1.0)
