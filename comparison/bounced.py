@@ -8,7 +8,6 @@ from typing import Any
 
 from bent_beam import Case, Impact, ImpactHistory
 from bent_beam.free_flight import LOWEST_PERIOD
-from bent_beam.measure.balance import Balance
 from bent_beam.measure.numbers import MISSING, Band, Number
 from bent_beam.measure.whole_impact import SHORTEST_SEPARATION, WINDOW, WholeImpact, peak_times
 from bent_beam.method import LONGEST_OF_WALL, ON_WALL, settings_of, time_on_wall
@@ -23,7 +22,6 @@ __all__ = ["OF_WHOLE", "Bounce", "documents", "scales", "with_stress"]
 
 OF_WHOLE = ("restitution", "peak_moment", "peak_stress", "peak_force")
 """Numbers of the whole impact that other answers include."""
-OF_FORCE = ("peak_force_time", "peak_force_place")
 LYING = 5.0  # times the largest push or moment: the end for a beam that does not leave
 MARGIN = 1.15  # times the last contact, or the largest value: the end of the axes
 
@@ -107,20 +105,15 @@ class Bounce:
 
     @property
     def span(self) -> tuple[float, float]:
-        """What the largest moment, stress and force are the largest of, s: from the first touch to one period of the
-        lowest mode after the last contact."""
+        """In which largest values are sought, s: to one period of the lowest mode after the last contact."""
         return 0.0, self.outcome.until * self.impact.slow_time_scale
 
     @property
     def hardest(self) -> dict[str, Any]:
         """When and where the wall pushes hardest (:func:`peak_times`); of a largest force that is missing, nothing."""
         found = peak_times(self.outcome, self.impact)
-        return found | (dict.fromkeys(OF_FORCE) if self.numbers.get("peak_force") == MISSING else {})
-
-    @property
-    def balance(self) -> Balance:
-        """Momentum, energy and contact of the run itself, read from its state."""
-        return self.runs.balance
+        none = {"peak_force_time": None, "peak_force_place": None}
+        return found | (none if self.numbers.get("peak_force") == MISSING else {})
 
     @property
     def warnings(self) -> list[str]:
@@ -156,10 +149,9 @@ class Bounce:
         elif not self.left:
             found.append(f"a run ended with the beam at the wall: {stays}")
         elif pressed or self.outcome.again or (self.outcome.may_return and turns):
+            back = "the beam comes back" if self.outcome.again else "the beam may come back"
             if pressed or (self.impact.supported and self.outcome.may_return):
                 back = "the loads bring the beam back"
-            else:
-                back = "the beam comes back" if self.outcome.again else "the beam may come back"
             found.append(
                 f"{back} to the wall; these numbers are those of the first hit, later ones may be larger: "
                 "bentbeam bounce --hits 3 lists them"
@@ -175,7 +167,7 @@ class Bounce:
 
     def to_dict(self) -> dict[str, Any]:
         """The contract of ``bentbeam bounce --json``."""
-        in_si, reading, balance, band = self.in_si, self.runs.run.reading, self.balance, self.runs.question.band
+        in_si, reading, balance, band = self.in_si, self.runs.run.reading, self.runs.balance, self.runs.question.band
         stress, section, residual = in_si.get("peak_stress"), self.case.section, energy_residual(reading["energy"])
         with_unit = {name: n.to_dict() | {"unit": WHOLE[name].unit} for name, n in in_si.items() if WHOLE[name].scale}
         energies = {name: n.to_dict() for name, n in self.numbers.items() if WHOLE[name].scale == "energy"}
@@ -227,9 +219,7 @@ class Bounce:
 
     def write(self, out: str | Path, document: dict[str, Any] | None = None) -> list[Path]:
         """``bounce.json``, ``bounce.png`` and the animation ``bounce.gif`` in ``out``; returns the files.
-
-        document : with what a command adds to :meth:`to_dict`.
-        """
+        document : with what a command adds to :meth:`to_dict`."""
         from comparison.figures.history import animate
 
         film = animate(self.history, folder(out) / "bounce.gif", self._shown_until)
@@ -246,14 +236,9 @@ class Bounce:
 
 def scales(impact: Impact) -> dict[str, float]:
     """SI units of the dimensionless numbers: N s, s, N m, m, N."""
-    impulse = impact.mass_per_length * impact.half_length * impact.velocity
-    return {
-        "impulse": impulse,
-        "time": impact.slow_time_scale,
-        "moment": impact.moment_scale,
-        "length": impact.half_length,
-        "force": impulse / impact.slow_time_scale,
-    }
+    time, length = impact.slow_time_scale, impact.half_length
+    impulse = impact.mass_per_length * length * impact.velocity
+    return {"impulse": impulse, "time": time, "moment": impact.moment_scale, "length": length, "force": impulse / time}
 
 
 def documents(numbers: Mapping[str, Number | Band], names: Iterable[str]) -> dict[str, Any]:
@@ -262,8 +247,7 @@ def documents(numbers: Mapping[str, Number | Band], names: Iterable[str]) -> dic
 
 
 def with_stress(numbers: Mapping[str, Any], case: Case) -> dict[str, Any]:
-    """``numbers``, SI, and where the section is known the largest normal stress, Pa, |M|/W + |N|/A at the place and
-    time of their largest moment."""
+    """``numbers``, SI, and of a known section the largest stress, Pa: |M|/W + |N|/A where and when |M| is largest."""
     if (section := case.section) is None:
         return dict(numbers)
     alone = section.stress(0.0, case.impact.axial_force)

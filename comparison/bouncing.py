@@ -35,7 +35,6 @@ from comparison.whole_numbers import FINAL, MAY_RISE, NUMBERS
 __all__ = ["DAMPING_RATIOS", "bounce", "case_of", "follow_hits", "problem", "whole_numbers", "whole_reading"]
 
 Beam = Case | Impact | str | Path | Mapping[str, Any]
-TIMES = ("last_contact", "peak_moment_time")
 RUNS = 24  # of a band
 DAMPING_RATIOS = (0.0002, 0.002, 0.02)  # of the first mode: bare steel, a bar as it is held, with joints
 INSTANTS = 200  # saved a T* of a run that follows hits
@@ -125,7 +124,7 @@ def whole_numbers(made: Runs) -> dict[str, Number | Band]:
     """Every number of a whole impact; those of its end only where the beam left."""
     reading = made.run.reading
     names = NUMBERS if reading["peak_force"] is None else (*NUMBERS, "peak_force")
-    known = {name: {"saved_instants": reading["within"]} for name in TIMES}
+    known = {name: {"saved_instants": reading["within"]} for name in ("last_contact", "peak_moment_time")}
     if made.question.impact.wall_stiffness is not None:  # a whole interval is for the last push, which fades
         known["peak_moment_time"]["saved_instants"] *= 0.5
     known |= {name: {"saved_instants": change} for name, change in reading["drift"].items()}
@@ -186,8 +185,7 @@ def _may_return(made: Runs, restitution: Number) -> float:
 
 
 def _may_be_none(reading: Mapping[str, Any], restitution: Number) -> float:
-    """How much earlier the last contact may end, T*: without its last part, where that changes the velocity by less
-    than :data:`RETURNS` bars of the restitution."""
+    """How much earlier the last contact may end, T*: without a last part that is no more than :data:`RETURNS` bars."""
     contacts = reading["contacts"]
     graze = len(contacts) > 1 and reading["last_push"] <= RETURNS * (restitution.bar or 0.0)
     return float(contacts[-1][1] - contacts[-2][1]) if graze else 0.0
@@ -231,7 +229,6 @@ def _flights(impact: Impact, over: Sequence[Hit]) -> float:
 
 
 def followed_until(impact: Impact, over: Sequence[Hit]) -> float:
-    """Until when a beam is followed after hits that are over, s: ``LONGEST_OF_WALL`` T* and its flights, of which
-    :data:`FLIGHTS` T* at most."""
+    """Until when a beam is followed, s: ``LONGEST_OF_WALL`` T* and its flights, of which :data:`FLIGHTS` T* at most."""
     unit = impact.slow_time_scale
     return LONGEST_OF_WALL * unit + min(_flights(impact, over), FLIGHTS * unit)

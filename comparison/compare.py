@@ -126,9 +126,8 @@ def comparison_text(found: dict[str, Any], first: str, second: str) -> str:
         "Both runs are of the same case." if found["same_impact"] else "The runs are of two cases that differ.",
     ]
     changed = [row for part in ("impact", "settings", "versions") for row in _changed(found[part])]
-    return "\n".join(
-        [*lines, "", text_table(["what differs", first, second], changed, (0, 1, 2))] if changed else lines
-    )
+    lines += ["", text_table(["what differs", first, second], changed, (0, 1, 2))] if changed else []
+    return "\n".join(lines)
 
 
 def _changed(pairs: dict[str, Any], where: str = "") -> list[list[str]]:
@@ -174,14 +173,12 @@ def rerun_history(old: ImpactHistory, out: Path | None = None, progress: Progres
 
 def rerun_text(found: dict[str, Any]) -> str:
     """The comparison for a reader; shares are of a variable's largest value."""
-    lines = ["The new run is the same, bit for bit." if found["identical"] else "The new run differs."]
-    apart = [
-        [n, "missing, or of another size" if v is None else f"{v:.2g}"] for n, v in found["largest_difference"].items()
-    ]
-    if apart:
-        lines += ["", text_table(["variable", "largest difference over its largest value"], apart)]
-    changed = [[name, *map(str, pair)] for name, pair in found["versions_changed"].items()]
-    if changed:
+    lines, lost = ["The new run is the same, bit for bit."], "missing, or of another size"
+    if not found["identical"]:
+        apart = [[name, lost if v is None else f"{v:.2g}"] for name, v in found["largest_difference"].items()]
+        table = text_table(["variable", "largest difference over its largest value"], apart)
+        lines = ["The new run differs.", "", table]
+    if changed := [[name, *map(str, pair)] for name, pair in found["versions_changed"].items()]:
         lines += ["", text_table(["version of", "then", "now"], changed)]
     return "\n".join(lines if found["file"] is None else [*lines, f"history: {found['file']}"])
 
