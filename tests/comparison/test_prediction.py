@@ -99,32 +99,21 @@ def test_a_rod_under_its_weight_leaves_with_what_is_known_of_it(tmp_path) -> Non
     over = {"over_damping": [{"damping_ratio": 0.02, "peak_stress": largest}]}
     whole = document["whole_impact"] | push | over | {"peak_force": None, "peak_force_time": None}
     text = prediction_text(document | {"whole_impact": whole, "agreement": {"from": 2e-3, "until": 2e-3}})
-    assert (
-        "± is" not in text
-        and "agree at 2 ms alone" in text
-        and "within 2 ms: 0.5 ± 0.2 N s." in text
-        and "begins at 3 ms" in text
-    )
+    assert "± is" not in text and "agree at 2 ms alone" in text
+    assert "within 2 ms: 0.5 ± 0.2 N s." in text and "begins at 3 ms" in text
     assert f"ratio of the material: {number_from(largest).scaled(1e-6)} at 2 %" in text
     band = whole | {"push": {"value": None, "error": None, "band": {"mean": 0.5, "std": 0.2, "runs": 24}}}
     assert "a band is mean ± one standard deviation" in prediction_text(document | {"whole_impact": band})
 
 
-def test_agreement_from_the_first_time_compared_is_said_so_and_one_point_of_a_beam_that_shears_is_a_short_zone() -> (
-    None
-):
-    asked = predict_case(
-        replace(case_of(Impact.whole_beam(2.0, relative_damping=1e-3)), tables=HALF), [4e-3], whole=False
-    )
-    document = asked.to_dict()
-    first, words = (
-        document["compared_from"],
-        {"euler_bernoulli": "stays one point", "timoshenko": "shrinks to one point"},
-    )
+def test_agreement_from_the_first_time_compared_is_said_so_and_one_point_of_a_beam_that_shears_is_a_short_zone():
+    case = replace(case_of(Impact.whole_beam(2.0, relative_damping=1e-3)), tables=HALF)
+    document = predict_case(case, [4e-3], whole=False).to_dict()
+    first = document["compared_from"]
     assert first == pytest.approx(4e-5, rel=1e-9)
     for begin, said in ((first, "agree at all compared times until 2 ms"), (1e-3, "agree from 1 ms to 2 ms")):
         assert said in prediction_text(document | {"agreement": {"from": begin, "until": 2e-3}})
-    for model, said in words.items():
+    for model, said in (("euler_bernoulli", "stays one point"), ("timoshenko", "shrinks to one point")):
         assert said in prediction_text(document | {"model": model, "regime": "discrete"}).split("\n")[0]
 
 
