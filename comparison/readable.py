@@ -3,6 +3,7 @@ hundred on, mm below a centimetre, MPa, ms), tables in plain text as wide as the
 
 import csv
 import io
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from numbers import Real
 from pathlib import Path
@@ -77,13 +78,12 @@ def readable(value: Any, digits: int = 4) -> str:
     if isinstance(value, (bool, int, str)) or not isinstance(value, Real):
         return str(value)
     number = float(value)
-    if number != number or number in (float("inf"), float("-inf")):
+    if not math.isfinite(number):
         return str(number)
     text = f"{number:.{digits}g}"
     if number != 0.0 and not SMALL <= abs(number) < LARGE:
         mantissa, power = f"{number:.{digits - 1}e}".split("e")
-        mantissa = mantissa.rstrip("0").rstrip(".") if "." in mantissa else mantissa
-        factor = {"1": "", "-1": "-"}.get(mantissa, f"{mantissa}·")
+        factor = {1.0: "", -1.0: "-"}.get(float(mantissa), f"{float(mantissa):.{digits}g}·")
         text = f"{factor}10{str(int(power)).translate(RAISED)}"
     elif "e" in text:
         text = f"{float(text):.0f}"
@@ -207,9 +207,7 @@ def hits_table(rows: Sequence[Mapping[str, Any]], names: Sequence[str]) -> str:
     cells = [[row[name] if isinstance(row[name], str) else shown(row[name]) for name in names] for row in rows]
     head = ["hit", *(HIT[name] for name in names)]
     table = text_table(head, [[str(number), *line] for number, line in enumerate(cells, 1)])
-    both = (
-        " Where two overlap, velocities, energies and\nmoments are those of both together." if "wall" in names else ""
-    )
+    both = " Where two overlap, velocities, energies and\nmoments are those of both together." * ("wall" in names)
     return (
         f"{table}\nHits are read from the saved instants of one run and have no error bars. Of all but the first, the "
         f"second digit\nis uncertain. A moment is the largest until the next hit.{both}"
