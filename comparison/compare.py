@@ -24,15 +24,12 @@ CURVES = ("total_impulse", "kinetic_energy", "strain_energy")
 class Short(Repr):
     """Values as a table has room for: a mesh may name all its nodes, each to its last digit."""
 
-    def __init__(self) -> None:
-        super().__init__()
-        self.maxlist, self.maxstring, self.maxother = 4, 60, 60
-
     def repr_float(self, value: float, level: int) -> str:
         return repr(float(f"{value:.6g}"))
 
 
 SHORT = Short()
+SHORT.maxlist, SHORT.maxstring, SHORT.maxother = 4, 60, 60
 
 
 def compare_histories(a: ImpactHistory, b: ImpactHistory) -> dict[str, Any]:

@@ -117,9 +117,6 @@ def sweep(
         (``None``: as many as pay). scheduler : address of a dask one. progress : called with (done, all) rows.
     fresh : stored runs are ignored.
     Raises ``ValueError`` for what is no case at all; a row that fails is a row with its reason.
-
-    >>> from comparison import sweep
-    >>> found = sweep("cases/tube.toml", {"impact.velocity": [0.5, 1.0]})  # doctest: +SKIP
     """
     tables: dict[str, Any] = deepcopy(dict(case)) if isinstance(case, Mapping) else read_toml(Path(case), "case file")
     lay_over(tables, assignments)

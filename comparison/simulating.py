@@ -26,7 +26,6 @@ from theory import Prediction, predict
 from theory.validity import ENDS
 
 BAND = "without damping a whole impact is a band, which bentbeam bounce gives; one run has no number of it"
-OF_RUN = (*OF_WHOLE, "last_contact")  # numbers of a whole impact that a run to it has
 UNSTATED = "of a beam whose damping is not stated bentbeam bounce gives the whole impact at three damping ratios"
 
 
@@ -49,9 +48,8 @@ class Simulated:
         infinite = predict(impact, [end]) if comparable(impact) else None
         row = infinite.times[0] if infinite and infinite.times[0].valid else None
         energy, balance = energy_at_end(self.runs.history or history, until), self.runs.balance
-        largest, unit = reading, {"length": 1.0, "time": 1.0}
-        if until is None:
-            largest, unit = reading["whole"], scales(impact)
+        largest = reading["whole"] if until is None else reading
+        unit = scales(impact) if until is None else {"length": 1.0, "time": 1.0}
         several = impact.opposite_wall is not None or impact.off_centre  # between two walls, or of a beam that rocks
         listed = hits(history) if several or impact.supported or impact.net_load > 0.0 else []
         return {
@@ -164,7 +162,7 @@ def simulate_case(
         return Simulated(case, runs, runs.history, {})
     inner = runs.part(lambda reading: dict(reading["whole"]))
     whole = Bounce(case, whole_numbers(inner), inner)
-    found: dict[str, Any] = {name: number for name, number in whole.in_si.items() if name in OF_RUN}
+    found: dict[str, Any] = {name: n for name, n in whole.in_si.items() if name in (*OF_WHOLE, "last_contact")}
     at_end, of_hit = numbers_at(runs, case), whole.in_si.get("impulse", MISSING)
     if of_hit.value is not None and math.isclose(of_hit.value, at_end["impulse"].known, rel_tol=1e-9):
         found["impulse"] = of_hit  # one number with one bar

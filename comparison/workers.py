@@ -21,7 +21,6 @@ FIRST_ANSWER = 8.0  # s that a scheduler has to answer
 FIRST_WORKER = 15.0  # s until one is there, and again until all have answered
 IDLE = 10  # s until a worker without work ends; until then the next stage of a command finds it warm
 PAYS = 5.0  # s of work from which on a second process pays: it takes some two to start and to load libraries
-DIED = "the worker died: out of memory?"
 
 Done = Callable[[int, Any], None]
 Calls = Sequence[tuple[Any, ...]]  # the arguments of each
@@ -56,7 +55,7 @@ def run_all(
         if progress is not None:
             progress(len(results), len(arguments))
 
-    def died(i: int, why: str = DIED) -> None:
+    def died(i: int, why: str = "the worker died: out of memory?") -> None:
         if on_death is None:
             raise RuntimeError(f"call {i}: {why}")
         done(i, on_death(i, why))

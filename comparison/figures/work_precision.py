@@ -53,7 +53,7 @@ def _draw(rows: Sequence[MatchRow], out: Path, name: str, first: bool, missing: 
     }
     groups = _groups(rows)
     marks = {label: mark for group in groups for label, mark in _marks(group).items()}
-    cases = sorted({(r.kappa_over_nu, r.first) for r in rows})
+    cases = sorted({_case(r) for r in rows})
     lines = [(case, group) for case in cases for group in groups if any(_case(r) == case for r in group)]
     columns = _columns(groups)
     below = 0.16 * len(columns[0]) + 0.2
