@@ -10,7 +10,6 @@ import numpy as np
 
 from bent_beam import Case, ImpactHistory
 from bent_beam.measure.numbers import MISSING, Band, Number
-from comparison.bounced import MARGIN
 from comparison.doubts import comparable
 from comparison.figures import style
 from comparison.figures.panels import contacts, draw_force, draw_wall, heights, impulse_given, sheet
@@ -18,6 +17,7 @@ from comparison.readable import in_unit, largest_of
 from theory import predict
 
 FRAMES, PER_SECOND = 90, 18
+MARGIN = 1.15  # times the last push, or the largest moment: the end of the axes
 NEARLY = 0.7  # of the record: where that is later, all of it is drawn
 GIVEN = 0.999  # of the impulses: what comes later is none of the last push
 SEEN = 0.02  # of the axis: less of a theory's time is no line

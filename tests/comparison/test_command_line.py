@@ -16,7 +16,6 @@ from histories import pushed_until
 from bent_beam import ImpactHistory, SimulationError
 from comparison.command_line.app import run
 from comparison.command_line.options import progress
-from comparison.compare import comparison_text
 from hermite_fe import HermiteFE
 from self_similar_fe import SelfSimilarFE
 
@@ -48,9 +47,6 @@ def test_both_paths_say_what_theory_says_and_their_stored_runs_are_drawn_and_com
     assert max(found["largest_difference"][name] for name in ("total_impulse", "gap")) < 0.01  # two codes, one impact
     assert all(one != other for one, other in found["settings"].values())
     assert found["settings"]["far_field"][1] is found["settings"]["geometry"][0] is None  # one path alone has it
-    end = found["end"] | {"time": [0.002, 0.004], "peak_moment": [120.0, 150.0]}
-    told = " ".join(comparison_text(found | {"end": end}, "a", "b").split())
-    assert "end of the run 2 4 ms" in told and "peak moment 0.12 0.15 kN m" in told
 
 
 def test_a_match_whose_rows_are_all_refused_is_bad_input_and_still_a_document(capsys):
