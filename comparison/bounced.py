@@ -8,6 +8,7 @@ from typing import Any
 
 from bent_beam import Case, Impact, ImpactHistory
 from bent_beam.free_flight import LOWEST_PERIOD
+from bent_beam.measure.balance import Balance
 from bent_beam.measure.numbers import MISSING, Band, Number
 from bent_beam.measure.whole_impact import SHORTEST_SEPARATION, WINDOW, WholeImpact, peak_times
 from bent_beam.method import LONGEST_OF_WALL, ON_WALL, settings_of, time_on_wall
@@ -116,6 +117,11 @@ class Bounce:
         return found | (none if self.numbers.get("peak_force") == MISSING else {})
 
     @property
+    def balance(self) -> Balance:
+        """Momentum, energy and contact of the run itself, read from its state."""
+        return self.runs.balance
+
+    @property
     def warnings(self) -> list[str]:
         """What a reader must know of the numbers."""
         found, others = doubts(self.impact, self.case.section), list[str]()
@@ -167,7 +173,7 @@ class Bounce:
 
     def to_dict(self) -> dict[str, Any]:
         """The contract of ``bentbeam bounce --json``."""
-        in_si, reading, balance, band = self.in_si, self.runs.run.reading, self.runs.balance, self.runs.question.band
+        in_si, reading, balance, band = self.in_si, self.runs.run.reading, self.balance, self.runs.question.band
         stress, section, residual = in_si.get("peak_stress"), self.case.section, energy_residual(reading["energy"])
         with_unit = {name: n.to_dict() | {"unit": WHOLE[name].unit} for name, n in in_si.items() if WHOLE[name].scale}
         energies = {name: n.to_dict() for name, n in self.numbers.items() if WHOLE[name].scale == "energy"}

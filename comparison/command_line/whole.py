@@ -79,7 +79,8 @@ def bounce(
         of = [f"Hits, {paths[0]}"] if len(paths) > 1 else []
         table = ["", *of, hits_table(rows, OF_ONE_WALL)] if rows else []
         made_up = "Of a beam with L/2 = EI = mu = V0 = 1 in SI units: N, ms and m are those of no real beam."
-        return "\n".join([*titled, *[made_up] * (case is None), *table, *(f"warning: {line}" for line in fewer)])
+        said = [made_up] if case is None else []
+        return "\n".join([*titled, *said, *table, *(f"warning: {line}" for line in fewer)])
 
     options.emit_with_files(document, as_json, text, out, write)
 

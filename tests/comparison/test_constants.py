@@ -75,6 +75,16 @@ def test_a_constant_halved_or_doubled_leaves_the_theory_s_numbers(method, where,
         assert abs(number.relative(1.0 if first else 0.0)) < within
 
 
+OF_DEFAULT = {5e-4: (0.9, 0.25, 0.33, 0.5, 0.71, 0.8, 0.1, 0.13, 0.05, 0.02), 2e-3: (0.01, 1 / 250, 1 / 400, 1 / 1600)}
+
+
+@pytest.mark.parametrize(("kappa", "within"), [(k, within) for within, kappas in OF_DEFAULT.items() for k in kappas])
+def test_the_default_is_right_and_never_pulls(kappa: float, within: float) -> None:
+    row = row_of(HermiteFE(), kappa)
+    assert max(abs(row.lambda0.relative()), abs(row.r0.relative())) < within
+    assert row.lift < 1e-3 and row.pull < 1e-12
+
+
 @pytest.mark.parametrize("kappa", [0.1, 0.05])
 def test_errors_and_lift_fall_with_the_mesh_without_any_hold(kappa: float) -> None:
     for coarse, fine in pairwise(row_of(HermiteFE(refine=refine), kappa) for refine in (0.5, 1.0, 2.0)):
