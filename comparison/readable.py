@@ -207,7 +207,9 @@ def hits_table(rows: Sequence[Mapping[str, Any]], names: Sequence[str]) -> str:
     cells = [[row[name] if isinstance(row[name], str) else shown(row[name]) for name in names] for row in rows]
     head = ["hit", *(HIT[name] for name in names)]
     table = text_table(head, [[str(number), *line] for number, line in enumerate(cells, 1)])
-    both = " Where two overlap, velocities, energies and\nmoments are those of both together." * ("wall" in names)
+    both = (
+        " Where two overlap, velocities, energies and\nmoments are those of both together." if "wall" in names else ""
+    )
     return (
         f"{table}\nHits are read from the saved instants of one run and have no error bars. Of all but the first, the "
         f"second digit\nis uncertain. A moment is the largest until the next hit.{both}"
