@@ -24,7 +24,9 @@ def test_the_ball_is_what_event_by_event_integration_gives(restitution: float) -
         landing = speed - 9.81 * flight
         start, height, speed, impacts = start + flight, 0.0, -restitution * landing, impacts + 1
         given += speed - landing
-        assert ball.impact_time(impacts) == pytest.approx(start, rel=1e-13)
+        at = ball.impact_time(impacts)
+        assert at == pytest.approx(start, rel=1e-13)
+        assert ball.velocity_at([np.nextafter(at, 0.0), at]) == pytest.approx([landing, speed], abs=1e-11)
         if speed < 1e-4:
             break
 
