@@ -44,8 +44,7 @@ class Rows(NamedTuple):
     dofs: Places
     factors: Array
     gap: Array
-    rank: Places
-    side: Places
+    order: Places
     tributary: Array
 
 
@@ -97,15 +96,13 @@ def set_bounds(rows: Rows, law: ContactLaw, closed: Flags, t: float, h: float, l
         least[j] = -h * law.strength[j] if closed[j] else 0.0
     if t >= law.hold_ends or (law.hold == 0 and t >= law.hold_until):
         return
-    right = left = -1  # the front on either side of the first to touch
+    right, left = -1, 0  # the front on either side of the middle
     for j in range(closed.size):
-        if closed[j] and rows.side[j] == 0:
-            right = max(right, rows.rank[j])
-        elif closed[j]:
-            left = max(left, rows.rank[j])
+        if closed[j]:
+            right, left = max(right, rows.order[j]), min(left, rows.order[j])
     for j in range(closed.size):
-        front = right if rows.side[j] == 0 else left
-        if closed[j] and (t < law.hold_until or front - rows.rank[j] < law.hold):
+        behind = right - rows.order[j] if rows.order[j] >= 0 else rows.order[j] - left
+        if closed[j] and (t < law.hold_until or behind < law.hold):
             least[j] = -np.inf
 
 

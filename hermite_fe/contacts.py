@@ -6,23 +6,18 @@ the mean gap of each element (thesis 4.0.6).
     means    (1/l)∫_e g dx = −(½w₁ + (l/12)θ₁ + ½w₂ − (l/12)θ₂) ≥ 0
 
 The reaction impulse of a mean gap is p_e = l ∫ r_e dt: the pair is conjugate, so the work of a piecewise-constant
-reaction is exact. What they share is what closed rows do (:meth:`Contact.law`), the impact law and the hold:
-
-    ġ⁺ = −e ġ⁻ where a row closes                                                           (thesis 3.2.4)
+reaction is exact. Where a row closes ġ⁺ = −e ġ⁻ (thesis 3.2.4).
 
 **The hold.** Contact is unilateral unless its law has a strength (:class:`hermite_fe.constraints.ContactLaw`). Two
-options keep closed constraints closed whatever they pull, for comparison and for the infinite beam's first instants
-only:
+options, off unless stated, keep closed constraints closed whatever they pull, for comparison and for first instants:
 
-- ``hold_until``: nothing that has closed opens before this time: a bilateral start. With the long first step of
-  :mod:`hermite_fe.resolution` it is not needed.
-- ``hold``: a constraint that has closed is not released until the front is so many constraints further. What is held
-  so vanishes as elements shrink. Behind a moving front the exact reaction is zero, and noise of either sign there
-  turns into pushes off the wall.
+- ``hold_until``: nothing that has closed opens before this time: a bilateral start.
+- ``hold``: a constraint that has closed is not released until the front is so many constraints further. Behind a moving
+  front the exact reaction is zero, and noise of either sign there turns into pushes off the wall. Runs that measure
+  what a pressing load changes take a ``hold`` by themselves.
 
-Both are off unless stated; runs that measure what a pressing load changes take a ``hold`` by themselves. Neither acts
-after t_w = 0.005 T* (:data:`bent_beam.impact.WAVES_FELT`), from when on waves from the ends may move the zone. What a
-held constraint pulled is recorded as ``held_impulse``, and how hard as ``hold`` in the settings.
+Neither acts after 0.005 T* (:data:`bent_beam.impact.WAVES_FELT`), from when on waves from the ends may move the zone.
+What a held constraint pulled is recorded as ``held_impulse``, and how hard as ``hold`` in the settings.
 """
 
 import dataclasses
@@ -64,10 +59,8 @@ class Contact(Part, ABC):
         super().__post_init__()
         if self.held and self.restitution > 0.0:
             name, value = next(iter(self.held.items()))
-            raise InputError(
-                f"contact.{name} keeps rows closed that restitution {self.restitution!r} makes rebound: "
-                f"state one of them (got {value!r})"
-            )
+            rebound = f"rows closed that restitution {self.restitution!r} makes rebound"
+            raise InputError(f"contact.{name} keeps {rebound}: state one of them (got {value!r})")
 
     @property
     def sticks(self) -> bool:
@@ -111,15 +104,13 @@ class NodeContact(Contact):
     """Rows at the nodes; a row's tributary length is half of each neighbouring element."""
 
     def rows(self, beam: HermiteBeam, facing: Array, *, full: bool) -> ContactRows:
-        x, count = beam.nodes, beam.nodes.size
-        first = count // 2 if full else 0
+        number = np.arange(beam.nodes.size)
         return ContactRows(
-            dofs=2 * np.arange(count)[:, None],
-            factors=-np.ones((count, 1)),
+            dofs=2 * number[:, None],
+            factors=-np.ones((number.size, 1)),
             gap=-facing[0::2],
-            places=x,
-            rank=np.abs(np.arange(count) - first),
-            side=(np.arange(count) < first).astype(np.int64),
+            places=beam.nodes,
+            order=number - (number.size // 2 if full else 0),
             tributary=np.convolve(beam.lengths, [0.5, 0.5]),
         )
 
@@ -134,24 +125,20 @@ def element_rows(
 
     Raises ``ValueError`` when ``at`` lies outside the elements, or weights do not move with the beam.
     """
-    count = beam.nodes.size - 1
-    share = np.broadcast_to(np.asarray(at, float), (count,))
+    number, share = np.arange(beam.lengths.size), np.asarray(at, float)
     if not np.all((share >= 0.0) & (share <= 1.0)):
         raise InputError(f"at must lie in [0, 1], within the element (got {at!r})")
     lifted = weights[:, 0] + weights[:, 2]
     if not np.allclose(lifted, 1.0, rtol=0.0, atol=1e-9):
         worst = float(lifted[np.argmax(np.abs(lifted - 1.0))])
         raise InputError(f"weights of the deflections w₁ and w₂ must add up to one in each element (got {worst:.6g})")
-    dofs = 2 * np.arange(count)[:, None] + np.arange(4)[None, :]
-    first = count // 2 if full else 0
-    left = np.arange(count) < first
+    dofs = 2 * number[:, None] + np.arange(4)
     return ContactRows(
         dofs=dofs,
         factors=-weights,
         gap=-np.einsum("jk,jk->j", weights, facing[dofs]),
         places=beam.nodes[:-1] + share * beam.lengths,
-        rank=np.where(left, first - 1 - np.arange(count), np.arange(count) - first),
-        side=left.astype(np.int64),
+        order=number - (number.size // 2 if full else 0),
         tributary=beam.lengths,
     )
 
@@ -160,8 +147,7 @@ def element_rows(
 class MiddleContact(Contact):
     """Rows at the element middles; nodes may dip into the wall by KΔx²/8 before their element's row closes."""
 
-    slope_share: ClassVar[float] = 8.0
-    """A slope counts for its element's length over this."""
+    slope_share: ClassVar[float] = 8.0  # a slope counts for its element's length over this
 
     def rows(self, beam: HermiteBeam, facing: Array, *, full: bool) -> ContactRows:
         half, slope = np.full(beam.lengths.size, 0.5), beam.lengths / self.slope_share
@@ -182,16 +168,12 @@ class AlternateContact(NodeContact):
 
     def rows(self, beam: HermiteBeam, facing: Array, *, full: bool) -> ContactRows:
         rows = super().rows(beam, facing, full=full)
-        kept = rows.at(rows.rank % 2 == 0)
-        return dataclasses.replace(kept, rank=kept.rank // 2, tributary=2.0 * kept.tributary)
+        kept = rows.at(rows.order % 2 == 0)
+        return dataclasses.replace(kept, order=kept.order // 2, tributary=2.0 * kept.tributary)
 
 
-CONTACTS: dict[str, type] = {
-    "node": NodeContact,
-    "middle": MiddleContact,
-    "mean": MeanContact,
-    "alternate": AlternateContact,
-}
+CONTACTS: dict[str, type] = {"node": NodeContact, "middle": MiddleContact, "mean": MeanContact,
+                             "alternate": AlternateContact}  # fmt: skip
 """Kinds of a case file's ``[hermite.contact]`` table."""
 
 

@@ -25,7 +25,6 @@ WIDTH = 4  # diagonal and three subdiagonals: what Hermite elements need
 
 
 def _left_out() -> Any:
-    """Of either type: :class:`ContactRows` makes it one number a row."""
     return np.zeros(0)
 
 
@@ -35,8 +34,8 @@ class ContactRows:
 
     dofs : (rows, w) int; factors : (rows, w); gap : (rows,), the gap at q = 0.
     places : (rows,), x of each, m (for the record).
-    rank : (rows,) int, distance from the middle of the beam, in constraints; side : (rows,) int, 0 right of it, 1
-        left. Both serve only a hold behind a moving front (:class:`hermite_fe.contacts.Contact`).
+    order : (rows,) int, number from the middle of the beam on, negative left of it; it serves only a hold behind a
+        moving front (:class:`hermite_fe.contacts.Contact`).
     tributary : (rows,), the length of beam that a row answers for: of a half beam's middle node half an element's
         (penalty contact scales with it).
     """
@@ -45,8 +44,7 @@ class ContactRows:
     factors: Array
     gap: Array
     places: Array = field(default_factory=_left_out)
-    rank: Places = field(default_factory=_left_out)
-    side: Places = field(default_factory=_left_out)
+    order: Places = field(default_factory=_left_out)
     tributary: Array = field(default_factory=_left_out)
 
     def __post_init__(self) -> None:
@@ -55,8 +53,8 @@ class ContactRows:
         set_(self, "dofs", dofs)
         set_(self, "factors", np.ascontiguousarray(self.factors, float).reshape(dofs.shape))
         set_(self, "gap", np.ascontiguousarray(self.gap, float).reshape(rows))
-        defaults = {"places": np.zeros(rows), "rank": np.arange(rows), "side": np.zeros(rows, np.int64)}
-        for name, default in (defaults | {"tributary": np.ones(rows)}).items():
+        defaults = {"places": np.zeros(rows), "order": np.arange(rows), "tributary": np.ones(rows)}
+        for name, default in defaults.items():
             value = getattr(self, name) if np.size(getattr(self, name)) else default
             if np.shape(value) != (rows,):
                 raise InputError(f"contact rows: {name} must have shape ({rows},) (got {np.shape(value)})")
