@@ -28,7 +28,7 @@ from hermite_fe.active_set import SOLVED, solve_constrained
 from hermite_fe.banded import copy, dot, product
 from hermite_fe.compiled import Array, Flags, compiled, compiled_within, recompiling
 from hermite_fe.constraints import Constraints, ask_for_gaps, constraints_of, note_complementarity
-from hermite_fe.integrators.base import MOST_WORK, Integrator
+from hermite_fe.integrators.base import MOST_WORK, Integrator, Reached
 from hermite_fe.stepping import Problem, State, add_energies, add_impulses, end_step, forces_at, mean_forces, prepare
 
 STABLE = 0.8  # of the length of a step times the bound of the frequencies; Verlet's limit is 2
@@ -36,11 +36,8 @@ STABLE = 0.8  # of the length of a step times the bound of the frequencies; Verl
 
 class MasslessMemory(NamedTuple):
     """conditions : of the contact, their ``p`` λ, N, when solved, then the step's impulse; inner : (dofs,), those with
-    mass.
-
-    fastest : bound of the frequencies, 1/s; push : (rows,), λ at the instant reached. Work arrays, (dofs,): b, dq, mean
-    velocity, force, scratch.
-    """
+    mass; fastest : bound of the frequencies, 1/s; push : (rows,), λ at the instant reached. The rest are work arrays,
+    (dofs,)."""
 
     conditions: Constraints
     inner: Flags
@@ -61,7 +58,13 @@ class MasslessBoundary(Integrator):
     damped: ClassVar[bool] = False
 
     def start(self, problem: Problem, state: State) -> MasslessMemory:
-        refuse(problem, state)
+        kind = "integrator.kind: massless_boundary"
+        if problem.matrices.causes.size:
+            raise InputError(f"{kind} takes no damping: far_field.viscosity and that of beam and wall must be 0")
+        if np.any(state.bending.phi):
+            raise InputError(f"{kind} leaves out the inertia of slopes: shear_stiffness is not modelled")
+        if problem.rows.dofs.shape[1] > 1:
+            raise InputError(f'{kind} needs contact points that are dofs: contact.kind must be "alternate"')
         matrices, solver, stride = problem.matrices, problem.solver, 2 if state.bending.lengths.size else 1
         mass = moved_masses(problem, stride)
         inner = (mass > 0.0) & ~solver.fixed[solver.unknown]
@@ -80,21 +83,10 @@ class MasslessBoundary(Integrator):
 
     def advance(
         self, problem: Problem, state: State, memory: MasslessMemory, times: Array, first: int, last: int
-    ) -> tuple[int, int]:
+    ) -> Reached:
         needed = times[-1] * memory.fastest / STABLE
         affordable("integrator.kind = massless_boundary and mesh", needed, state.q.size // 2, 1, MOST_WORK)
         return take_steps(problem, state, memory, times, first, last)
-
-
-def refuse(problem: Problem, state: State) -> None:
-    """``InputError`` for what the scheme does not have."""
-    kind = "integrator.kind: massless_boundary"
-    if problem.matrices.causes.size:
-        raise InputError(f"{kind} takes no damping: far_field.viscosity and that of beam and wall must be 0")
-    if np.any(state.bending.phi):
-        raise InputError(f"{kind} leaves out the inertia of slopes: shear_stiffness is not modelled")
-    if problem.rows.dofs.shape[1] > 1:
-        raise InputError(f'{kind} needs contact points that are dofs: contact.kind must be "alternate"')
 
 
 def moved_masses(problem: Problem, stride: int) -> Array:
@@ -103,10 +95,8 @@ def moved_masses(problem: Problem, stride: int) -> Array:
     M, touching = problem.matrices.M, np.zeros(problem.matrices.M.shape[1], np.bool_)
     touching[problem.rows.dofs] = True
     if touching.size <= stride or np.any(touching[:-stride] & touching[stride:]):
-        raise InputError(
-            "integrator.kind: massless_boundary needs points that do not touch beside each that may, to carry its "
-            'mass: contact.kind must be "alternate"'
-        )
+        needs = "massless_boundary needs points that do not touch beside each that may, to carry its mass"
+        raise InputError(f'integrator.kind: {needs}: contact.kind must be "alternate"')
     mass, beside = M[0].copy(), np.full(touching.size, 2.0)
     for k in range(stride, 4, stride):
         mass[:-k] += M[k, :-k]
@@ -148,9 +138,7 @@ def settle(problem: Problem, state: State, memory: MasslessMemory, t: float) -> 
 
 
 @compiled
-def take_steps(
-    problem: Problem, state: State, memory: MasslessMemory, times: Array, first: int, last: int
-) -> tuple[int, int]:
+def take_steps(problem: Problem, state: State, memory: MasslessMemory, times: Array, first: int, last: int) -> Reached:
     """Take the steps ``first`` … ``last`` − 1 between the instants ``times``, each in equal parts that are stable."""
     for k in range(first, last):
         parts = max(int(np.ceil((times[k + 1] - times[k]) * memory.fastest / STABLE)), 1)

@@ -20,7 +20,7 @@ from hermite_fe.banded import PAD, copy, multiply
 from hermite_fe.compiled import Array, Places, compiled, compiled_within
 from hermite_fe.constraints import count_rounds
 from hermite_fe.elastic_wall import FORCE, FORCE_TIME, PENETRATION, PRESSURE, landing, push
-from hermite_fe.integrators.base import Integrator
+from hermite_fe.integrators.base import Integrator, Reached
 from hermite_fe.integrators.theta import Vectors, begin_step, finish_step
 from hermite_fe.stepping import WALL, Problem, State
 
@@ -50,9 +50,7 @@ class MidpointMemory(NamedTuple):
 
 
 @compiled
-def take_steps(
-    problem: Problem, state: State, memory: MidpointMemory, times: Array, first: int, last: int
-) -> tuple[int, int]:
+def take_steps(problem: Problem, state: State, memory: MidpointMemory, times: Array, first: int, last: int) -> Reached:
     for k in range(first, last):
         h, anew = begin_step(problem, state, memory.vectors, times[k], times[k + 1], 0.5)
         if anew:

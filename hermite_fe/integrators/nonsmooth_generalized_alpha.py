@@ -17,28 +17,18 @@ from dataclasses import dataclass
 from typing import Annotated, ClassVar, NamedTuple
 
 from bent_beam.fields import Quantity
+from hermite_fe import constraints
 from hermite_fe.active_set import SOLVED, solve_constrained
 from hermite_fe.banded import copy, dot, multiply
 from hermite_fe.compiled import Array, compiled, compiled_within
-from hermite_fe.constraints import (
-    Constraints,
-    ask_for_gaps,
-    ask_for_rebound,
-    constraints_of,
-    find_candidates,
-    note_complementarity,
-    row_times,
-    rows_times,
-    set_bounds,
-)
+from hermite_fe.constraints import Constraints, constraints_of
 from hermite_fe.integrators import generalized_alpha as alpha
-from hermite_fe.integrators.base import Integrator
+from hermite_fe.integrators.base import Integrator, Reached
 from hermite_fe.stepping import Problem, State, add_impulses, forces_at
 
 LEVELS = ("velocity", "position_velocity", "position_velocity_acceleration")
 VELOCITY, _, ACCELERATION = range(3)
-# of the rate at which the kinetic energy would move its dofs alone: a slower closed constraint has not rebounded
-AT_REST = 1e-12
+AT_REST = 1e-12  # of the rate at which the kinetic energy would move its dofs alone: slower, it has not rebounded
 
 
 class AlphaMemory(NamedTuple):
@@ -52,15 +42,12 @@ class AlphaMemory(NamedTuple):
 
 
 @compiled
-def take_steps(
-    problem: Problem, state: State, memory: AlphaMemory, times: Array, first: int, last: int
-) -> tuple[int, int]:
-    """Take the steps ``first`` … ``last`` − 1 between the instants ``times``; returns (status, step reached)."""
+def take_steps(problem: Problem, state: State, memory: AlphaMemory, times: Array, first: int, last: int) -> Reached:
     motion, _, _, velocity, level = memory
     for k in range(first, last):
         t, h = times[k], alpha.prepare_step(problem, motion.scheme, times[k + 1] - times[k], times[k + 1])
-        set_bounds(problem.rows, problem.law, state.closed, t, h, velocity.least)
-        rows_times(problem.rows, state.v, velocity.Gv)
+        constraints.set_bounds(problem.rows, problem.law, state.closed, t, h, velocity.least)
+        constraints.rows_times(problem.rows, state.v, velocity.Gv)
         if level == VELOCITY:
             status = velocity_step(problem, state, memory, t, h)
         else:
@@ -81,7 +68,7 @@ def smooth_motion(problem: Problem, state: State, memory: AlphaMemory, t: float,
     forces_at(problem.matrices, t + h, state.q, state.v, vectors.b, vectors.scratch)
     status = solve_constrained(problem.solver, problem.rows, conditions, vectors.b, vectors.x)
     if status == SOLVED:
-        note_complementarity(problem.rows, conditions, vectors.x, h, state.worst)
+        constraints.note_complementarity(problem.rows, conditions, vectors.x, h, state.worst)
         alpha.correct(state, motion, h)
         for j in range(conditions.p.size):
             alpha.take_reaction(scheme, reactions, h, j, conditions.p[j])
@@ -95,13 +82,13 @@ def velocity_jump(problem: Problem, state: State, memory: AlphaMemory) -> int:
     matrices, rows, law, solver = problem
     vectors, velocity, v = memory.motion.vectors, memory.velocity, state.v
     W = vectors.x
-    rows_times(rows, v, velocity.Gq)
-    ask_for_rebound(law, velocity, velocity.Gq)
+    constraints.rows_times(rows, v, velocity.Gq)
+    constraints.ask_for_rebound(law, velocity, velocity.Gq)
     status = solve_constrained(solver, rows, velocity, vectors.b, W)
     if status == SOLVED:
         copy(velocity.p, memory.motion.reactions.impulse)
         add_impulses(state, velocity)
-        note_complementarity(rows, velocity, W, 1.0, state.worst)
+        constraints.note_complementarity(rows, velocity, W, 1.0, state.worst)
         multiply(matrices.K, W, vectors.force)
         multiply(matrices.C, W, vectors.scratch)
         for i in range(v.size):
@@ -122,7 +109,7 @@ def velocity_step(problem: Problem, state: State, memory: AlphaMemory, t: float,
     q = state.q
     (scheme, vectors, _), _, _, velocity, _ = memory
     share = h * scheme.beta / scheme.gamma  # a constraint comes to rest h − share ahead if it is closed now
-    find_candidates(problem.rows, velocity, q, state.closed, h - share)
+    constraints.find_candidates(problem.rows, velocity, q, state.closed, h - share)
     status = smooth_motion(problem, state, memory, t, h)
     vectors.b[:] = 0.0
     if status == SOLVED:
@@ -175,11 +162,11 @@ def position_jump(problem: Problem, state: State, memory: AlphaMemory, h: float)
     matrices, rows, _, solver = problem
     vectors, position = memory.motion.vectors, memory.position
     q, U, b, force = state.q, vectors.x, vectors.b, vectors.new_jump_force
-    ask_for_gaps(rows, position, q, state.closed, 1.0, 1.0)
+    constraints.ask_for_gaps(rows, position, q, state.closed, 1.0, 1.0)
     b[:] = 0.0
     status = solve_constrained(solver, rows, position, b, U)
     copy(position.closed, state.closed)
-    note_complementarity(rows, position, U, 1.0 / h, state.worst)
+    constraints.note_complementarity(rows, position, U, 1.0 / h, state.worst)
     multiply(matrices.K, U, force)
     for i in range(U.size):
         q[i] += U[i]
@@ -212,7 +199,7 @@ def velocity_after_position(problem: Problem, state: State, memory: AlphaMemory,
         fastest = 0.0
         for i in range(rows.dofs.shape[1]):
             fastest += abs(rows.factors[j, i]) * math.sqrt(energy / problem.matrices.M[0, rows.dofs[j, i]])
-        reactions.at_rest[j] = velocity.closed[j] and abs(row_times(rows, v, j)) <= AT_REST * fastest
+        reactions.at_rest[j] = velocity.closed[j] and abs(constraints.row_times(rows, v, j)) <= AT_REST * fastest
     return status
 
 

@@ -27,22 +27,12 @@ from typing import Annotated, ClassVar, NamedTuple
 import numpy as np
 
 from bent_beam.fields import Quantity
+from hermite_fe import constraints
 from hermite_fe.active_set import SOLVED, solve_constrained
 from hermite_fe.banded import copy, dot, multiply, stiff_multiply
 from hermite_fe.compiled import Array, compiled, compiled_within
-from hermite_fe.constraints import (
-    Constraints,
-    ask_for_gaps,
-    ask_for_rebound,
-    constraints_of,
-    find_candidates,
-    note_complementarity,
-    row_times,
-    rows_times,
-    set_bounds,
-    some_gave_way,
-)
-from hermite_fe.integrators.base import Integrator
+from hermite_fe.constraints import Constraints, constraints_of
+from hermite_fe.integrators.base import Integrator, Reached
 from hermite_fe.maxwell import add_branch_forces, step_branches, stiffen
 from hermite_fe.stepping import MATERIAL, Problem, State, add_energies, add_impulses, end_step, mean_forces, prepare
 
@@ -101,33 +91,32 @@ def finish_step(problem: Problem, state: State, p: Array, vectors: Vectors, h: f
     loss += h * h * dot(v_theta, scratch)
     for j in range(p.size):
         if p[j] != 0.0:
-            loss -= p[j] * row_times(problem.rows, dv, j)
+            loss -= p[j] * constraints.row_times(problem.rows, dv, j)
     loss = (theta - 0.5) * loss  # of Δvᵀ(MΔv − Gᵀp) + h² v_θᵀK v_θ
     add_energies(problem, state, h, h * dot(vectors.force, v_theta), p, mean_v, v_theta, loss, scratch)
     return end_step(state)
 
 
 @compiled
-def take_steps(problem: Problem, state: State, memory: Memory, times: Array, first: int, last: int) -> tuple[int, int]:
-    """Take the steps ``first`` … ``last`` − 1 between the instants ``times``; returns (status, step reached)."""
+def take_steps(problem: Problem, state: State, memory: Memory, times: Array, first: int, last: int) -> Reached:
     (_, rows, law, solver), (conditions, vectors, theta, at_position) = problem, memory
     for k in range(first, last):
         h, _ = begin_step(problem, state, vectors, times[k], times[k + 1], theta)
-        set_bounds(rows, law, state.closed, times[k], h, conditions.least)
-        rows_times(rows, state.v, conditions.Gv)
+        constraints.set_bounds(rows, law, state.closed, times[k], h, conditions.least)
+        constraints.rows_times(rows, state.v, conditions.Gv)
         if at_position:
-            ask_for_gaps(rows, conditions, state.q, state.closed, h, theta)
+            constraints.ask_for_gaps(rows, conditions, state.q, state.closed, h, theta)
         else:
-            find_candidates(rows, conditions, state.q, state.closed, (1.0 - theta) * h)
-            ask_for_rebound(law, conditions, conditions.Gv)
+            constraints.find_candidates(rows, conditions, state.q, state.closed, (1.0 - theta) * h)
+            constraints.ask_for_rebound(law, conditions, conditions.Gv)
         while True:  # what was pulled too hard is let go together
             status = solve_constrained(solver, rows, conditions, vectors.b, vectors.dv)
-            if status != SOLVED or not some_gave_way(conditions):
+            if status != SOLVED or not constraints.some_gave_way(conditions):
                 break
         if status == SOLVED:
             copy(conditions.closed, state.closed)
             add_impulses(state, conditions)
-            note_complementarity(rows, conditions, vectors.dv, 1.0, state.worst)
+            constraints.note_complementarity(rows, conditions, vectors.dv, 1.0, state.worst)
             status = finish_step(problem, state, conditions.p, vectors, h, theta)
         if status != SOLVED:
             return status, k
@@ -152,7 +141,8 @@ class Theta(Integrator):
         return not self.at_position or self.theta == 1.0
 
     def start(self, problem: Problem, state: State) -> Memory:
-        return constraints_of(problem.rows), Vectors(*np.zeros((6, state.q.size))), self.theta, self.at_position
+        vectors = Vectors(*np.zeros((6, state.q.size)))
+        return constraints_of(problem.rows), vectors, self.theta, self.at_position
 
     advance = staticmethod(take_steps)
 
