@@ -18,8 +18,7 @@ middle in ωx; both need the full beam.
 
 **The ends** carry N as a dead load. Along the axis, EI(u_xxx + ηu̇_xxx) − Ny_x = 0: against u that is a transverse
 force NKL/2 at either end, which starts a wave at once. Along the tangent of the bow at the first touch,
-EI(u_xxx + ηu̇_xxx) − Nu_x = 0: its transverse part −NKL/2 balances the pull −NK per length of the bow, no wave starts,
-and a₀ is the acceleration of the whole beam. A force that turned with the end would have no potential.
+EI(u_xxx + ηu̇_xxx) − Nu_x = 0: no wave starts, and a₀ is the acceleration of the whole beam.
 
 **Walls** stand along a part of the beam, as constraints or as springs. With a second wall behind the beam every node
 has a constraint for either:
@@ -47,6 +46,7 @@ from hermite_fe.elastic_wall import NO_SPRINGS, Springs
 from hermite_fe.far_fields import Dampings, FarField
 from hermite_fe.masses import ConsistentMass, Mass
 from hermite_fe.maxwell import branches_at_rest
+from hermite_fe.stepping import end_moments
 from hermite_fe.system import NO_BRANCHES, Bending, ContactRows, System
 
 CONSISTENT = ConsistentMass()
@@ -92,13 +92,10 @@ class BeamModel:
         the load within them does not change."""
         bending = self.system.bending
         rise = np.diff(q[:, 0::2]) / bending.lengths
-        first, second = q[:, 1:-2:2] - rise, q[:, 3::2] - rise
-        near, far = 4.0 + bending.phi, 2.0 - bending.phi
-        stiffness = bending.stiffness / bending.lengths / (1.0 + bending.phi)
-        left, right = -stiffness * (near * first + far * second), stiffness * (far * first + near * second)
-        sums = np.pad(left, ((0, 0), (0, 1))) + np.pad(right, ((0, 0), (1, 0)))
-        sums[:, 1:-1] *= 0.5
-        return np.asarray(bending.free + sums)
+        strains = q[:, 1:-2:2] - rise, q[:, 3::2] - rise
+        left, right = end_moments(bending.stiffness / bending.lengths, bending.phi, *strains)
+        inside = 0.5 * (left[:, 1:] + right[:, :-1])
+        return np.asarray(bending.free + np.concatenate([left[:, :1], inside, right[:, -1:]], axis=1))
 
     def gap(self, q: Array) -> Array:
         """Distance of the nodes to the wall, m, (…, nodes), of q, (…, dofs)."""
@@ -119,10 +116,8 @@ def beam_model(
     branches = branches_of(impact)
     relaxed = impact.bending_stiffness * (1.0 if branches is None else branches.relaxed)
     beam = HermiteBeam(x, relaxed, impact.mass_per_length, impact.shear_stiffness, impact.rotary_inertia)
-    natural, facing = (
-        beam.interpolate(-0.5 * curvature * s**2, -curvature * s)
-        for curvature in (impact.curvature, impact.relative_curvature)
-    )
+    bow = beam.interpolate(-0.5 * s**2, -s)
+    natural, facing = impact.curvature * bow, impact.relative_curvature * bow
     facing[0::2] -= impact.wall_clearance
     from_behind = -natural
     from_behind[0::2] -= impact.opposite_wall or 0.0
@@ -140,21 +135,14 @@ def beam_model(
     bending = Bending(beam.lengths, beam.phi, relaxed, impact.bending_stiffness * bent, half.size - 1 if full else 0)
     left = tuple(range(HELD[impact.left_end])) if full else (1,)  # of a half beam the slope in its middle
     supports = left + tuple(range(beam.dofs - 2, beam.dofs - 2 + HELD[impact.right_end]))
-    rows = before_the_wall(contact.rows(beam, facing, full=full), impact, supports)
-    if impact.opposite_wall is not None:
-        rows = with_opposite_wall(rows, natural, impact.opposite_wall)
+    rows = rows_at_walls(contact.rows(beam, facing, full=full), impact, natural, supports)
     system = System(
-        mass=inertia,
-        stiffness=stiffness,
-        dampings=dampings,
+        mass=inertia, stiffness=stiffness, dampings=dampings, contacts=rows, supports=supports, bending=bending,
         load=nodal_loads(impact, beam, s, inertia, stiffness, dampings, follows=far_field.end == "following"),
-        contacts=rows,
-        supports=supports,
         springs=springs_of(impact, beam, facing, full=full),
         second=NO_SPRINGS if impact.opposite_wall is None else springs_of(impact, beam, from_behind, -1.0, full=full),
-        bending=bending,
         branches=NO_BRANCHES if branches is None else branches_at_rest(bending_stiffness, branches),
-    )
+    )  # fmt: skip
     behind = (np.arange(len(rows)) % 2 == 1) & (impact.opposite_wall is not None)
     return BeamModel(beam, system, displacement, velocity, natural, facing, behind, full, impact.axial_force)
 
@@ -188,20 +176,28 @@ def nodal_loads(
     return load if np.any(load[1]) else load[:1]
 
 
-def before_the_wall(rows: ContactRows, impact: Impact, supports: tuple[int, ...]) -> ContactRows:
-    """``rows`` that stand before the wall, and not at an end that is held.
+def rows_at_walls(rows: ContactRows, impact: Impact, natural: Array, supports: tuple[int, ...]) -> ContactRows:
+    """``rows`` that stand before the wall, and not at an end that is held; if there is a wall behind the beam, each is
+    followed by the same node's there. natural : (dofs,), the bow at the first touch.
 
-    Raises ``ValueError`` where there is none, as before a stop where contact is not at nodes.
+    Raises ``ValueError`` where none is left, as before a stop where contact is not at nodes, and for two walls then.
     """
-    kept = impact.before_wall(rows.places)
-    if rows.dofs.shape[1] == 1:
+    at_nodes, kept = rows.dofs.shape[1] == 1, impact.before_wall(rows.places)
+    if at_nodes:
         kept &= ~np.isin(rows.dofs[:, 0], supports)
     if not kept.any():
         begin, end = impact.wall_span
-        raise InputError(
-            f"wall_from: no contact point stands before the wall from {begin!r} to {end!r} m; take contact.kind = node"
-        )
-    return rows.at(kept)
+        wall = f"the wall from {begin!r} to {end!r} m"
+        raise InputError(f"wall_from: no contact point stands before {wall}; take contact.kind = node")
+    rows = rows.at(kept)
+    if impact.opposite_wall is None:
+        return rows
+    if not at_nodes:
+        raise InputError('opposite_wall takes contact.kind = "node" or "alternate"')
+    both = rows.at(np.repeat(np.arange(len(rows)), 2))
+    both.factors[1::2] *= -1.0
+    both.gap[1::2] = natural[rows.dofs[:, 0]] + impact.opposite_wall
+    return both
 
 
 def springs_of(impact: Impact, beam: HermiteBeam, facing: Array, side: float = 1.0, *, full: bool) -> Springs:
@@ -212,27 +208,7 @@ def springs_of(impact: Impact, beam: HermiteBeam, facing: Array, side: float = 1
     begin, end = impact.wall_span
     share = 0.5 if begin == end and not full else 1.0
     return Springs(
-        stiffness=share * impact.wall_stiffness,
-        damping=share * impact.wall_damping,
-        facing=facing,
-        lengths=beam.lengths,
-        shares=beam.phi / (1.0 + beam.phi),
-        first=first,
-        last=last,
-        stop=2 * first if begin == end else -1,
-        side=side,
-        at_landing=share * impact.damping_at_landing,
-    )
-
-
-def with_opposite_wall(rows: ContactRows, natural: Array, distance: float) -> ContactRows:
-    """``rows`` of the wall in front, each followed by the same node's of a wall behind at ``distance``, m.
-
-    natural : (dofs,), the bow at the first touch. Raises ``ValueError`` for contact that is not at nodes.
-    """
-    if rows.dofs.shape[1] != 1:
-        raise InputError('opposite_wall takes contact.kind = "node" or "alternate"')
-    both = rows.at(np.repeat(np.arange(len(rows)), 2))
-    both.factors[1::2] *= -1.0
-    both.gap[1::2] = natural[rows.dofs[:, 0]] + distance
-    return both
+        stiffness=share * impact.wall_stiffness, damping=share * impact.wall_damping, facing=facing,
+        lengths=beam.lengths, shares=beam.phi / (1.0 + beam.phi), first=first, last=last,
+        stop=2 * first if begin == end else -1, side=side, at_landing=share * impact.damping_at_landing,
+    )  # fmt: skip

@@ -1,7 +1,7 @@
 """The data of a time integrator, and compiled functions that the schemes share."""
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -16,9 +16,8 @@ from hermite_fe.system import Bending, Branches, System
 
 WORK, IMPACT, ALGORITHMIC, VISCOUS, MATERIAL, ABSORBED, WALL = range(7)
 """Indices in ``State.energy``, J since the start: the work of the loads, and the losses to impacts, to the scheme's own
-damping, to viscosity at grid scale, to the material's damping, to an absorbing layer, to the dashpots of the wall. Each
-has its own formula; the difference between their sum and the change of kinetic, strain and the wall's energy is the
-energy residual of a run."""
+damping, to viscosity at grid scale, to the material's damping, to an absorbing layer, to the dashpots of the wall. What
+they leave of the change of kinetic, strain and the wall's energy is the energy residual of a run."""
 
 ENERGIES = ("work_of_loads", *LOSSES)
 LARGEST = ("largest_moment", "largest_moment_node", "largest_midspan_moment")
@@ -129,16 +128,20 @@ def prepare(problem: Problem, c: float, k: float, h: float, t: float) -> float:
 
 
 @compiled_within
+def end_moments(stiffness: Any, phi: Any, first: Any, second: Any) -> tuple[Any, Any]:
+    """EI w_xx at both ends of an element of the stiffness EI/length from its strains, or of many at once."""
+    stiffness, near, far = stiffness / (1.0 + phi), 4.0 + phi, 2.0 - phi
+    return -stiffness * (near * first + far * second), stiffness * (far * first + near * second)
+
+
+@compiled_within
 def note_moments(bending: Bending, q: Array, stretch: Array, largest: Array) -> None:
     """Note the largest bending moments of the cubics through q and of the branches, at both ends of each element."""
     for e in range(bending.lengths.size):
         first, second = strains_of(bending, q, e)
-        first += stretch[2 * e]
-        second += stretch[2 * e + 1]
-        phi = bending.phi[e]
-        stiffness, near, far = bending.stiffness / bending.lengths[e] / (1.0 + phi), 4.0 + phi, 2.0 - phi
-        left = abs(bending.free - stiffness * (near * first + far * second))
-        right = abs(bending.free + stiffness * (far * first + near * second))
+        first, second = first + stretch[2 * e], second + stretch[2 * e + 1]
+        left, right = end_moments(bending.stiffness / bending.lengths[e], bending.phi[e], first, second)
+        left, right = abs(bending.free + left), abs(bending.free + right)
         if max(left, right) > largest[0]:
             largest[0], largest[1] = max(left, right), e if left > right else e + 1
         if e == bending.middle and left > largest[2]:
