@@ -17,6 +17,7 @@ w is positive into the wall; node i has dofs 2i (w) and 2i + 1 (θ). Matrices ar
 lower banded form, shape (4, 2·nodes): ``scipy.linalg.cholesky_banded(…, lower=True)`` takes them as they are.
 """
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -91,9 +92,7 @@ class HermiteBeam:
     @property
     def phi(self) -> Array:
         """Φ of each element, shape (elements,)."""
-        if self.shear_stiffness is None:
-            return np.zeros(self.nodes.size - 1)
-        return 12.0 * self.bending_stiffness / (self.shear_stiffness * self.lengths**2)
+        return 12.0 * self.bending_stiffness / ((self.shear_stiffness or math.inf) * self.lengths**2)
 
     def elements(self, tables: Sequence[list[list[int]]], factor: Array) -> Array:
         """``tables``, of the powers of Φ, times ``factor``, (elements,), with a length for each θ of a row and of a
@@ -105,8 +104,6 @@ class HermiteBeam:
 
     def of_slopes(self, element: Array) -> Array:
         """Element matrices, (elements, 4, 4), of the dofs from those of cubics through deflections and slopes."""
-        if self.shear_stiffness is None:
-            return element
         half, across = np.full(self.lengths.size, -0.5), 1.0 / self.lengths
         angle = (self.phi / (1.0 + self.phi))[:, None] * np.stack([-across, half, across, half], axis=1)  # γ
         slopes = np.tile(np.eye(4), (self.lengths.size, 1, 1))
@@ -135,10 +132,6 @@ class HermiteBeam:
         translation = self.of_slopes(self.elements((INERTIA,), self.mass_per_length * self.lengths / 420.0))
         turning = self.rotary_inertia / (30.0 * self.lengths) / (1.0 + self.phi) ** 2
         return translation + self.elements(ROTARY, turning)
-
-    def mass(self) -> Array:
-        """M in lower banded form, shape (4, dofs)."""
-        return self.assembled(self.element_masses())
 
     def interpolate(self, value: Array, slope: Array) -> Array:
         """Nodal dofs (value, slope interleaved), shape (dofs,), from fields at the nodes; with shear the sections'

@@ -3,17 +3,16 @@
 import numpy as np
 import pytest
 from hermite_parts import dense
-from numpy.typing import NDArray
 from scipy.linalg import cho_solve_banded, cholesky_banded
 
 from bent_beam.meshes import ScaleFreeMesh
 from hermite_fe.active_set import CYCLING, MOST_ROUNDS, SOLVED, find_wrong, solve_constrained
 from hermite_fe.beam import HermiteBeam
+from hermite_fe.compiled import Array, Flags
 from hermite_fe.constraints import Constraints, ContactLaw, constraints_of
+from hermite_fe.masses import ConsistentMass
 from hermite_fe.stepping import Problem, prepare, problem_of
 from hermite_fe.system import ContactRows, System
-
-Array = NDArray[np.float64]
 
 
 def random_system(random: np.random.Generator) -> System:
@@ -33,12 +32,7 @@ def random_system(random: np.random.Generator) -> System:
     factors = random.choice([-1.0, 1.0], dofs.shape) * random.uniform(0.5, 2.0, dofs.shape)
     free = np.setdiff1d(np.arange(n), dofs) if dofs.shape[1] == 1 else np.arange(1, n, 2)
     supports = tuple(int(d) for d in free[random.random(free.size) < 0.1][:1])
-    return System(
-        mass=bands,
-        stiffness=np.zeros((1, n)),
-        contacts=ContactRows(dofs=dofs, factors=factors, gap=np.zeros(len(dofs))),
-        supports=supports,
-    )
+    return System(bands, np.zeros((1, n)), ContactRows(dofs, factors, np.zeros(len(dofs))), supports=supports)
 
 
 def ready(system: System) -> tuple[Problem, Constraints]:
@@ -48,7 +42,7 @@ def ready(system: System) -> tuple[Problem, Constraints]:
     return problem, constraints_of(problem.rows)
 
 
-def missed(system: System, conditions: Constraints, held: NDArray[np.bool_], b: Array, x: Array) -> float:
+def missed(system: System, conditions: Constraints, held: Flags, b: Array, x: Array) -> float:
     """By how much x and p miss what one x alone fulfils: Mx = b + Gᵀp, and of each row a gap or a push."""
     rows, p, forces = system.contacts, conditions.p, dense(system.mass) @ x - b
     np.subtract.at(forces, rows.dofs, p[:, None] * rows.factors)
@@ -66,9 +60,7 @@ def test_contact_problems_are_solved(seeds: range) -> None:
         system = random_system(random)
         problem, conditions = ready(system)
         n, m = system.dofs, len(system.contacts)
-        b = random.normal(size=n)
-        target = random.normal(size=m)
-        degenerate = random.random()
+        b, target, degenerate = random.normal(size=n), random.normal(size=m), random.random()
         if degenerate < 0.1:
             b, target = np.round(b), np.zeros(m)
         elif degenerate < 0.3:  # some rows just touch: no gap and no reaction
@@ -95,7 +87,7 @@ def test_contact_problems_are_solved(seeds: range) -> None:
 def test_the_factors_solve_like_lapack_s() -> None:
     """The step matrix of a strongly graded beam."""
     beam = HermiteBeam(ScaleFreeMesh(element_length=1e-3, growth=1.02).nodes(10.0), 1.0, 1.0)
-    bands, one = beam.mass() + 1e-6 * beam.stiffness(), ContactRows(dofs=[[0]], factors=[[1.0]], gap=[0.0])
+    bands, one = ConsistentMass().matrix(beam) + 1e-6 * beam.stiffness(), ContactRows([[0]], [[1.0]], [0.0])
     problem, conditions = ready(System(mass=bands, stiffness=np.zeros((1, beam.dofs)), contacts=one))
     known = np.random.default_rng(0).normal(size=(8, beam.dofs))
     right, ours = known @ dense(bands), np.zeros_like(known)

@@ -11,6 +11,7 @@ from hermite_fe.banded import product
 from hermite_fe.beam import HermiteBeam
 from hermite_fe.far_fields import GridViscosity, Sponge
 from hermite_fe.integrators import NonsmoothGeneralizedAlpha
+from hermite_fe.masses import ConsistentMass
 from hermite_fe.run import integrate
 from hermite_fe.system import ContactRows, System
 from hermite_fe.warnings_of_run import end_warnings
@@ -43,7 +44,7 @@ def test_a_packet_dies_in_viscosity_and_sponge_and_is_back_without(x, far_field,
     q, v = beam.interpolate(f.real, first.real), beam.interpolate((1j * second).real, (1j * third).real)
     dampings = far_field.dampings(beam, Impact(1.0, 1.0, 2.0 * x[-1], 0.0, 1.0))
     away = ContactRows(dofs=[[0]], factors=[[-1.0]], gap=[1e9])
-    system = System(mass=beam.mass(), stiffness=beam.stiffness(), dampings=dampings, contacts=away)
+    system = System(ConsistentMass().matrix(beam), beam.stiffness(), away, dampings)
     end = 4.0 * (turn - start) / (2.0 * k)
     scheme = NonsmoothGeneralizedAlpha(0.05 / k**2, levels="velocity", spectral_radius=1.0)
     run = integrate(system, q, v, scheme, end, save=np.linspace(0.25, 1.0, 60) * end)
