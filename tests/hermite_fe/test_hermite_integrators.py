@@ -193,11 +193,11 @@ def stepper(integrator: Integrator, half_length: float, nodes: int) -> Stepper:
     return Stepper(model.system, model.displacement, model.velocity, integrator, 1.0)
 
 
-def subnormal(part: Any) -> int:
-    """How many numbers are subnormal in nested tuples of arrays."""
+def subnormal(part: Any) -> bool:
+    """Whether any number is in nested tuples of arrays."""
     if isinstance(part, tuple):
-        return sum(map(subnormal, part))
-    return int(np.count_nonzero((part != 0.0) & (np.abs(part) < np.finfo(float).tiny)))
+        return any(map(subnormal, part))
+    return bool(np.any((part != 0.0) & (np.abs(part) < np.finfo(float).tiny)))
 
 
 @every
@@ -205,7 +205,7 @@ def test_no_number_of_the_state_is_subnormal(make: Make) -> None:
     run = stepper(make(STEP), 100.0, 2000)
     for step in (5, 50, 200):
         assert run.advance_to(step) == 0
-        assert subnormal((run.state.q, run.state.v, run.state.acceleration, run.memory)) == 0
+        assert not subnormal((run.state.q, run.state.v, run.state.acceleration, run.memory))
 
 
 @every
@@ -223,15 +223,6 @@ def test_steps_are_the_same_compiled_beforehand_and_odd_ones_do_no_harm(make: Ma
     assert np.abs(ready.state.v - cold.state.v).max() <= 1e-9
     cold.state.q[60] = np.nan
     assert cold.advance_to(120) != 0 and cold.step == 100
-
-
-def test_an_undefined_number_is_found_in_the_step_where_it_arises() -> None:
-    """Also where nothing is damped, loaded or closed."""
-    system = System([[1.0, 1.0]], [[1.0, 1.0]], ContactRows([[0]], [[1.0]], [100.0]))
-    run = Stepper(system, np.zeros(2), np.ones(2), MoreauJean(STEP, theta=0.5), 1.0)
-    run.advance_to(5)
-    run.state.q[1] = np.nan
-    assert run.advance_to(20) != 0 and run.step == 5
 
 
 def test_a_thousand_nodes_nearly_at_rest_on_the_wall_are_sorted_out_in_a_few_hundred_rounds() -> None:

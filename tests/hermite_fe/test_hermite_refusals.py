@@ -57,7 +57,6 @@ REFUSED = [
     (lambda: simulate(SHORT, mesh=UniformMesh(1e-9)), r"^mesh\.element_length is too small"),
     (lambda: simulate(Impact.dimensionless(0.5, epsilon_psi=1.0, length=40.0)), "into the wall before the impact"),
     (lambda: simulate(SHORT.replace(rotation=-3.0, first_touch=0.5)), r"rotation must not .* at -0\.5 m/s"),
-    (lambda: integrate(ball(), np.zeros(2), np.zeros(1), MoreauJean(1e-3), 0.1), r"q must have shape \(1,\) .*\(2,\)"),
     (lambda: integrate(ball(), np.zeros(1), np.zeros(0), MoreauJean(1e-3), 0.1), r"v must have shape"),
     # systems
     (lambda: ContactRows([[1], [0]], np.ones((2, 1)), np.ones(2)), "sorted by their first dof"),
@@ -69,7 +68,6 @@ REFUSED = [
     (lambda: system(ONE, (("friction", np.ones(2)),)), r"dampings must name .* \(got \['friction'\]\)"),
     (lambda: system(ONE, load=np.ones((2, 3))), r"system\.load must have shape \(powers, 2\)"),
     (lambda: system(ContactRows([[2]], [[1.0]], [1.0])), "contact rows must name dofs from 0 to 1"),
-    (lambda: system(ContactRows([[-1]], [[1.0]], [1.0])), "contact rows must name dofs from 0 to 1"),
     (lambda: system(ONE, supports=(-1,)), r"system\.supports must name dofs from 0 to 1 \(got \(-1,\)\)"),
     (lambda: system(ONE, supports=(0,)), "must not share a dof"),
     # contacts
@@ -94,11 +92,7 @@ REFUSED = [
     (lambda: massless(contact=NodeContact()), r'points that do not touch.*contact.kind must be "alternate"'),
     (lambda: massless(contact=MiddleContact()), r'points that are dofs: contact.kind must be "alternate"'),
     (lambda: massless(contact=AlternateContact(restitution=0.5)), r"restitution must be 0 \(got 0.5\)"),
-    (lambda: massless(contact=AlternateContact(hold=4)), r"contact\.hold has no effect"),
-    (lambda: massless(SHORT.replace(damping=1e-3)), r"no damping"),
-    (lambda: massless(SHORT.replace(hysteretic_loss=0.02, loss_frequency=1.0)), r"hysteretic_loss"),
     (lambda: massless(SHORT.replace(shear_stiffness=50.0)), r"shear_stiffness"),
-    (lambda: massless(SPRINGS, contact=None), r"integrator.kind"),
     (lambda: massless(element=1e-3, end_time=1e3), r"massless_boundary and mesh ask for .* steps"),
     # a wall that gives way
     (lambda: HermiteFE(integrator=MoreauJean()).simulate(SPRINGS, end_time=1.0), "integrator.kind"),

@@ -39,10 +39,8 @@ def test_the_first_mode_swings_at_its_frequency_and_loses_in_each_period_what_is
     slope = z * (-np.sin(z * x) / np.cos(z) + np.sinh(z * x) / np.cosh(z))
     away = model.beam.interpolate(np.full(x.size, -50.0), np.zeros(x.size))
     period = 1.0 / first_mode(impact)
-    run = integrate(
-        model.system, away, model.beam.interpolate(shape, slope),
-        SignoriniPosition(theta=0.5, time_step=period / 400.0, growth=0.0), 8.0 * period, save=3200,
-    )  # fmt: skip
+    scheme = SignoriniPosition(theta=0.5, time_step=period / 400.0, growth=0.0)
+    run = integrate(model.system, away, model.beam.interpolate(shape, slope), scheme, 8.0 * period, save=3200)
     swing = run.q[:, -2] - run.q[:, 0]
     turns = np.flatnonzero(np.diff(np.sign(np.diff(swing))))[4:] + 1  # the branches have forgotten the start
     widths = np.abs(np.diff(swing[turns]))
