@@ -134,8 +134,7 @@ class HermiteBeam:
         return translation + self.elements(ROTARY, turning)
 
     def interpolate(self, value: Array, slope: Array) -> Array:
-        """Nodal dofs (value, slope interleaved), shape (dofs,), from fields at the nodes; with shear the sections'
-        angle in place of the slope."""
+        """Dofs, interleaved, (dofs,), of fields at the nodes: deflection and slope, with shear the sections' angle."""
         return np.stack([value, slope], axis=1).ravel()
 
     def static(self, load: Array, supports: Mapping[int, float]) -> Array:

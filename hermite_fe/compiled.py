@@ -66,7 +66,6 @@ KEPT = can_be_kept()
 if KEPT:
     forget_old()
 
-
 ARITHMETIC: dict[str, Any] = {"error_model": "numpy", "fastmath": {"contract"}}
 """Sums may be contracted to fused multiply-adds; nothing else of IEEE arithmetic is given up."""
 

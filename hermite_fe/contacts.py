@@ -104,15 +104,9 @@ class NodeContact(Contact):
     """Rows at the nodes; a row's tributary length is half of each neighbouring element."""
 
     def rows(self, beam: HermiteBeam, facing: Array, *, full: bool) -> ContactRows:
-        number = np.arange(beam.nodes.size)
-        return ContactRows(
-            dofs=2 * number[:, None],
-            factors=-np.ones((number.size, 1)),
-            gap=-facing[0::2],
-            places=beam.nodes,
-            order=number - (number.size // 2 if full else 0),
-            tributary=np.convolve(beam.lengths, [0.5, 0.5]),
-        )
+        number, factors = np.arange(beam.nodes.size), -np.ones((beam.nodes.size, 1))
+        order, tributary = number - (number.size // 2 if full else 0), np.convolve(beam.lengths, [0.5, 0.5])
+        return ContactRows(2 * number[:, None], factors, -facing[0::2], beam.nodes, order, tributary)
 
 
 def element_rows(
@@ -132,15 +126,9 @@ def element_rows(
     if not np.allclose(lifted, 1.0, rtol=0.0, atol=1e-9):
         worst = float(lifted[np.argmax(np.abs(lifted - 1.0))])
         raise InputError(f"weights of the deflections w₁ and w₂ must add up to one in each element (got {worst:.6g})")
-    dofs = 2 * number[:, None] + np.arange(4)
-    return ContactRows(
-        dofs=dofs,
-        factors=-weights,
-        gap=-np.einsum("jk,jk->j", weights, facing[dofs]),
-        places=beam.nodes[:-1] + share * beam.lengths,
-        order=number - (number.size // 2 if full else 0),
-        tributary=beam.lengths,
-    )
+    dofs, order = 2 * number[:, None] + np.arange(4), number - (number.size // 2 if full else 0)
+    gap, places = -np.einsum("jk,jk->j", weights, facing[dofs]), beam.nodes[:-1] + share * beam.lengths
+    return ContactRows(dofs, -weights, gap, places, order, beam.lengths)
 
 
 @dataclass(frozen=True)

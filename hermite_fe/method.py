@@ -145,10 +145,8 @@ class HermiteFE(Composition):
     ) -> ImpactHistory:
         """Follow ``impact`` until the beam has left for good (:func:`bent_beam.method.simulate_to_separation`)."""
         if self.far_field is not None and self.far_field.absorbs:
-            absorbs = (
-                f"{self.far_field.damper} absorbs waves that the ends send back, and these belong to a whole impact"
-            )
-            raise InputError(f"far_field.kind: {absorbs}: take viscosity (got {self.far_field!r})")
+            absorbs = "absorbs waves that the ends send back, and these belong to a whole impact: take viscosity"
+            raise InputError(f"far_field.kind: {self.far_field.damper} {absorbs} (got {self.far_field!r})")
         times, separation = separation_times(impact, longest, save), Separation(impact)
 
         def until(model: BeamModel, run: Stepper) -> bool:

@@ -18,7 +18,8 @@ middle in ωx; both need the full beam.
 
 **The ends** carry N as a dead load. Along the axis, EI(u_xxx + ηu̇_xxx) − Ny_x = 0: against u that is a transverse
 force NKL/2 at either end, which starts a wave at once. Along the tangent of the bow at the first touch,
-EI(u_xxx + ηu̇_xxx) − Nu_x = 0: no wave starts, and a₀ is the acceleration of the whole beam.
+EI(u_xxx + ηu̇_xxx) − Nu_x = 0: its part −NKL/2 balances the pull −NK per length of the bow, no wave starts, and a₀ is
+that of the whole beam. A force that turned with the end would have no potential.
 
 **Walls** stand along a part of the beam, as constraints or as springs. With a second wall behind the beam every node
 has a constraint for either:

@@ -217,9 +217,8 @@ def integrate(
     kept = saved_steps(run.instants, save)
     affordable("integrator and mesh", run.instants.size - 1, max(1, system.dofs // 2), kept.size, MOST_WORK)
     samples: list[dict[str, Any]] = []
-    failure = ""
     run.compile()
-    start, worked, started, said = run.energy(), 0.0, clock.perf_counter(), False
+    start, worked, started, said, failure = run.energy(), 0.0, clock.perf_counter(), False, ""
     for step in kept:
         status = run.advance_to(int(step))
         if status != SOLVED:

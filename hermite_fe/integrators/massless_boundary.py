@@ -72,10 +72,8 @@ class MasslessBoundary(Integrator):
         matrices.M[0] = np.where(inner, mass, 0.0)
         solver.fixed[solver.unknown[inner]] = True  # while the others find their equilibrium
         recompiling(lambda: prepare(problem, 0.0, 1.0, 0.0, 0.0))  # K, and masses where nothing is solved for
-        memory = MasslessMemory(
-            constraints_of(problem.rows), inner, fastest(matrices.K, mass, inner), np.zeros_like(state.impulse),
-            *np.zeros((5, state.q.size)),
-        )  # fmt: skip
+        bound, push = fastest(matrices.K, mass, inner), np.zeros_like(state.impulse)
+        memory = MasslessMemory(constraints_of(problem.rows), inner, bound, push, *np.zeros((5, state.q.size)))
         if recompiling(lambda: settle(problem, state, memory, 0.0)) != SOLVED:
             raise InputError("integrator.kind: the points that keep mass in massless_boundary must hold all others")
         memory.push[:] = memory.conditions.p

@@ -33,8 +33,8 @@ FULL_ROUNDS = 20  # of whole Newton steps; then half ones
 class MidpointMemory(NamedTuple):
     """base : S without the wall; tangent : T, (4, dofs); reach : (1,), the last dof of the wall's part in S.
 
-    impulse : (rows,), zeros, of a rigid wall; peaks : (walls, 4), of a step. right, solution, new : (dofs,), of a
-    round, its right-hand side, its Δv and q⁺. wall : (walls, dofs), f₁ and f₂.
+    impulse : (rows,), zeros, of a rigid wall; peaks : (walls, 4), of a step. wall : (walls, dofs), f₁ and f₂. right,
+    solution, new : (dofs,), of a round, its right-hand side, its Δv and q⁺.
     """
 
     vectors: Vectors
@@ -43,10 +43,10 @@ class MidpointMemory(NamedTuple):
     reach: Places
     impulse: Array
     peaks: Array
+    wall: Array
     right: Array
     solution: Array
     new: Array
-    wall: Array
 
 
 @compiled
@@ -138,7 +138,6 @@ class Midpoint(Integrator):
         n, base, reach = state.q.size, np.zeros_like(problem.solver.S), np.zeros(1, np.int64)
         impulse, peaks = np.zeros_like(state.impulse), np.zeros((2, state.peaks.size))
         vectors, tangent, wall = Vectors(*np.zeros((6, n))), np.zeros((4, n)), np.zeros((2, n))
-        right, solution, new = np.zeros((3, n))
-        return MidpointMemory(vectors, base, tangent, reach, impulse, peaks, right, solution, new, wall)
+        return MidpointMemory(vectors, base, tangent, reach, impulse, peaks, wall, *np.zeros((3, n)))
 
     advance = staticmethod(take_steps)
