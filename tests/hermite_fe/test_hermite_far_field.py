@@ -32,10 +32,8 @@ STEEP = 2.0 * np.pi / (15.0 * 0.02)
     ids=["growing elements with viscosity", "growing elements alone", "sponge", "free end"],
 )
 def test_a_packet_dies_in_viscosity_and_sponge_and_is_back_without(x, far_field, k, start, turn, least, most):
-    """In elements that grow with viscosity a packet dies on its way to where a few of them make a wave; what the mesh
-    carries to the end dies in a sponge. The packet, of unit amplitude and wave number k, is sent out at ``start``; what
-    comes back to x < start is seen from when it would be at ``turn``, as far out as it gets, until it would be back
-    twice."""
+    """Of unit amplitude and wave number k, it is sent out at ``start``; what comes back to x < start is seen from when
+    it would be at ``turn``, as far out as it gets, until it would be back twice."""
     beam, width = HermiteBeam(x, 1.0, 1.0), min(12.0 / k, start / 5.0)
     # u = Re f, f = exp(ikx − (x − start)²/2w²), and its velocity Re if″: every number in it runs outwards
     f = np.exp(1j * k * x - 0.5 * ((x - start) / width) ** 2)

@@ -101,8 +101,7 @@ def test_a_straight_beam_lands_all_at_once_on_parts_that_are_chosen() -> None:
 def test_a_run_of_minutes_says_once_how_many_are_left(monkeypatch, caplog) -> None:
     for name in ("SOON", "LONG"):
         monkeypatch.setattr(f"hermite_fe.run.{name}", 0.0)
-    beam = Impact.whole_beam(2.0, relative_damping=0.1)
-    simulate(beam, end_time=0.1, mesh=UniformMesh(element_length=0.1), save=8)
+    simulate(Impact.whole_beam(2.0, relative_damping=0.1), end_time=0.1, mesh=UniformMesh(0.1), save=8)
     (said,) = caplog.record_tuples
     assert said[0] == "bent_beam" and "about" in said[2] and "minutes more" in said[2]
 
