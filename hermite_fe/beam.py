@@ -92,7 +92,8 @@ class HermiteBeam:
     @property
     def phi(self) -> Array:
         """Φ of each element, shape (elements,)."""
-        return 12.0 * self.bending_stiffness / ((self.shear_stiffness or math.inf) * self.lengths**2)
+        stiffness = math.inf if self.shear_stiffness is None else self.shear_stiffness
+        return 12.0 * self.bending_stiffness / (stiffness * self.lengths**2)
 
     def elements(self, tables: Sequence[list[list[int]]], factor: Array) -> Array:
         """``tables``, of the powers of Φ, times ``factor``, (elements,), with a length for each θ of a row and of a

@@ -59,8 +59,10 @@ class Contact(Part, ABC):
         super().__post_init__()
         if self.held and self.restitution > 0.0:
             name, value = next(iter(self.held.items()))
-            rebound = f"rows closed that restitution {self.restitution!r} makes rebound"
-            raise InputError(f"contact.{name} keeps {rebound}: state one of them (got {value!r})")
+            raise InputError(
+                f"contact.{name} keeps rows closed that restitution {self.restitution!r} makes rebound: "
+                f"state one of them (got {value!r})"
+            )
 
     @property
     def sticks(self) -> bool:
@@ -160,8 +162,12 @@ class AlternateContact(NodeContact):
         return dataclasses.replace(kept, order=kept.order // 2, tributary=2.0 * kept.tributary)
 
 
-CONTACTS: dict[str, type] = {"node": NodeContact, "middle": MiddleContact, "mean": MeanContact,
-                             "alternate": AlternateContact}  # fmt: skip
+CONTACTS: dict[str, type] = {
+    "node": NodeContact,
+    "middle": MiddleContact,
+    "mean": MeanContact,
+    "alternate": AlternateContact,
+}
 """Kinds of a case file's ``[hermite.contact]`` table."""
 
 

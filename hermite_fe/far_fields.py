@@ -1,17 +1,21 @@
 """The far field: the damping matrix that takes waves out before the end of the mesh, and what holds that end.
 
-Waves whose length approaches the element are slowed, trapped and, where elements grow, sent back. A bending viscosity
+Waves whose length approaches the element are slowed, trapped and, where elements grow, sent back. A bending
+viscosity in proportion to the element's length squared,
 
     C = Σ_e c Δx_e² √(μ/EI) Kₑ,
 
-damps a wave of number k with the ratio ζ = ½c(kΔx)², only what the mesh cannot carry anyway. In a sponge it rises
-towards the ends:
+damps a wave of number k with the ratio ζ = ½c(kΔx)², that is, only what the mesh cannot carry anyway: the
+same in every element whatever its size, and gone under refinement like Δx².
+
+A sponge: bending viscosity that rises towards the ends, next to that at grid scale.
 
     C = Σ_e η_e Kₑ,    η_e = (c Δx_e² + b w² s³)·√(μ/EI),    s = 1 − (distance to the end)/w ∈ [0, 1] within w of an end
 
-A wave of number k decays over the sponge by exp(−b (kw)³/16) on its way out, and as much on its way back. With the
-default b its onset sends back 1e-4 of the amplitude of waves shorter than w/8, 1e-2 for w/4 (measured). Viscosity of
-bending, unlike drag, takes no momentum and leaves rigid motion alone.
+A wave of number k decays over the sponge by exp(−b (kw)³/16) on its way out, and as much on its way back; how
+little the onset itself sends back depends on how many waves fit into the sponge. Measured with the default b:
+1e-4 of the amplitude for waves shorter than w/8, 1e-2 for w/4 (tests/hermite_fe). Viscosity of bending,
+unlike drag, takes no momentum and leaves rigid motion alone.
 """
 
 from abc import ABC, abstractmethod
@@ -35,8 +39,9 @@ Dampings = tuple[tuple[str, Array], ...]
 class FarField(Part, ABC):
     """Base of the far fields.
 
-    The end is "free"; or "following": the end forces and moments that y₀ needs are applied, as if the beam went on, so
-    that without contact the motion is y₀ everywhere (for a comparison with the theory of the infinite beam).
+    The end is "free", as the ends of a real beam are; or "following": the end forces and moments that y₀ needs are
+    applied, as if the beam went on, so that without contact the motion is y₀ everywhere (for a comparison with the
+    theory of the infinite beam).
     """
 
     where: ClassVar[str] = "far_field"

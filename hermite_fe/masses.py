@@ -1,7 +1,11 @@
-"""Mass matrices of a Hermite beam, from element matrices. They differ in what the rotations carry.
+"""What every mass matrix shares: M of a Hermite beam in lower banded form, from element matrices.
 
-**Consistent**: Mₑ = μ ∫ NᵀN dx (thesis 3.1.7–8). **Lumped**: Mₑ = diag(½μl, r μl³, ½μl, r μl³). The mass of the beam
-does not fix r, and the literature has several values:
+The translational part of an element's mass is the same for all of them: a uniform field of velocity v carries
+½μlv² per element (patch test). They differ in what the rotations carry.
+
+**Consistent**: Mₑ = μ ∫ NᵀN dx (thesis 3.1.7–8). **Lumped**: Mₑ = diag(½μl, r μl³, ½μl, r μl³).
+Half of an element's mass sits at each node; what the rotation there carries is not fixed by the mass of the
+beam, and the literature has several values of r:
 
 | r | from |
 | --- | --- |
@@ -11,7 +15,7 @@ does not fix r, and the literature has several values:
 | 1/420 | the row sum of its rotational block |
 | → 0 | rotations without inertia |
 
-As r → 0 the matrix becomes singular: r must be positive, small values show the limit.
+As r → 0 the matrix becomes singular and with it the accelerations: r must be positive, small values show the limit.
 """
 
 from abc import ABC, abstractmethod

@@ -41,8 +41,12 @@ class HermiteFE(Composition):
     perturbation: ClassVar[float] = 0.01
     """How much a load may change the free motion at the end of a run that measures λ₁ and r₁, over V₀t."""
     PARTS: ClassVar[dict[str, dict[str, type]]] = {
-        "mesh": MESHES, "integrator": INTEGRATORS, "contact": CONTACTS, "far_field": FAR_FIELDS, "mass": MASSES,
-    }  # fmt: skip
+        "mesh": MESHES,
+        "integrator": INTEGRATORS,
+        "contact": CONTACTS,
+        "far_field": FAR_FIELDS,
+        "mass": MASSES,
+    }
 
     label: str = "Hermite"
 
@@ -72,7 +76,8 @@ class HermiteFE(Composition):
         """A copy of these parts for a run that measures what the loads of ``impact`` change.
 
         A long beam is cut where nothing arrives, its ends following the free motion. A zone that the load presses is
-        held behind the front: the small gap that the bare impact leaves there would otherwise bear the load first.
+        held behind the front: the small gap that the bare impact leaves there would otherwise bear the load before the
+        wall does. Without loads, and where the wall gives way, nothing changes.
         """
         if not impact.loaded_to_first_order or impact.wall_stiffness is not None:
             return self
@@ -89,8 +94,10 @@ class HermiteFE(Composition):
         """A copy whose open parts are those of a whole beam, short enough for a run that ends at ``end_time``, s; its
         ``refine`` is worked in."""
         if self.domain is not None:
-            whole = "a free beam that touches at its middle alone, before one long wall, at first"
-            raise InputError(f"domain cuts {whole}: leave it out here (got {self.domain!r})")
+            raise InputError(
+                "domain cuts a free beam that touches at its middle alone, before one long wall, at first: "
+                f"leave it out here (got {self.domain!r})"
+            )
         mesh = (self.mesh or UniformMesh(whole_beam.element(impact, end_time))).refined(self.refine)
         shortest = float(np.diff(mesh.nodes(impact.half_length)).min())
         contact = self.contact or NodeContact()
@@ -103,10 +110,14 @@ class HermiteFE(Composition):
         else:
             integrator = integrator.with_steps(step, 0.0).refined(self.refine)
         return dataclasses.replace(
-            self, mesh=mesh, integrator=integrator, contact=contact if impact.wall_stiffness is None else self.contact,
-            far_field=self.far_field or GridViscosity(viscosity=0.0), full_beam=self.full_beam or impact.off_centre,
+            self,
+            mesh=mesh,
+            integrator=integrator,
+            contact=contact if impact.wall_stiffness is None else self.contact,
+            far_field=self.far_field or GridViscosity(viscosity=0.0),
+            full_beam=self.full_beam or impact.off_centre,
             refine=1.0,
-        )  # fmt: skip
+        )
 
     def cross_checks(self, impact: Impact) -> dict[str, Self]:
         """Companions for error bars, by cause: one with the impact law of another scheme; below ``ONE_POINT`` also
@@ -130,23 +141,32 @@ class HermiteFE(Composition):
         return found
 
     def varied(self, impact: Impact, random: np.random.Generator) -> Self:
-        """A copy for an ensemble: elements, steps and impact law drawn at random, of Moreau–Jean with θ = ½, which
-        keeps the energy between impacts; where the wall gives way elements alone."""
+        """A copy for an ensemble: elements, steps and impact law drawn at random.
+
+        Moreau–Jean with θ = ½ throughout, which keeps the energy between impacts; where the wall gives way, what is
+        chosen for it.
+        """
         if impact.wall_stiffness is not None:
             return self.refined(2.0 ** random.uniform(-1.0, 0.0)).for_whole_beam(impact)
         length = impact.half_length / int(random.integers(2 * whole_beam.ELEMENTS // 5, 4 * whole_beam.ELEMENTS // 5))
         step = 2.0 ** random.uniform(-1.0, 1.0) * length**2 / impact.wave_constant
         restitution = (0.0, 0.5, 1.0)[int(random.integers(3))]
-        integrator, contact = MoreauJean(theta=0.5, time_step=step, growth=0.0), NodeContact(restitution=restitution)
-        return dataclasses.replace(self, mesh=UniformMesh(length), integrator=integrator, contact=contact)
+        return dataclasses.replace(
+            self,
+            mesh=UniformMesh(length),
+            integrator=MoreauJean(theta=0.5, time_step=step, growth=0.0),
+            contact=NodeContact(restitution=restitution),
+        )
 
     def simulate_to_separation(
         self, impact: Impact, *, longest: float | None = None, save: int = 2000, progress: Progress | None = None
     ) -> ImpactHistory:
         """Follow ``impact`` until the beam has left for good (:func:`bent_beam.method.simulate_to_separation`)."""
         if self.far_field is not None and self.far_field.absorbs:
-            absorbs = "absorbs waves that the ends send back, and these belong to a whole impact: take viscosity"
-            raise InputError(f"far_field.kind: {self.far_field.damper} {absorbs} (got {self.far_field!r})")
+            raise InputError(
+                f"far_field.kind: {self.far_field.damper} absorbs waves that the ends send back, and these belong to a "
+                f"whole impact: take viscosity (got {self.far_field!r})"
+            )
         times, separation = separation_times(impact, longest, save), Separation(impact)
 
         def until(model: BeamModel, run: Stepper) -> bool:
@@ -155,7 +175,7 @@ class HermiteFE(Composition):
                 float(run.instants[run.step]),
                 float(state.impulse.sum()),
                 lambda: (model.beam.nodes, model.gap(state.q), state.v[0::2], model.copies * run.energy()),
-                closed=bool(state.closed.any()),
+                closed=bool(np.any(state.closed)),
             )
 
         parts = made_of(self.for_whole_beam(impact))

@@ -18,8 +18,8 @@ middle in ωx; both need the full beam.
 
 **The ends** carry N as a dead load. Along the axis, EI(u_xxx + ηu̇_xxx) − Ny_x = 0: against u that is a transverse
 force NKL/2 at either end, which starts a wave at once. Along the tangent of the bow at the first touch,
-EI(u_xxx + ηu̇_xxx) − Nu_x = 0: its part −NKL/2 balances the pull −NK per length of the bow, no wave starts, and a₀ is
-that of the whole beam. A force that turned with the end would have no potential.
+EI(u_xxx + ηu̇_xxx) − Nu_x = 0: its transverse part −NKL/2 balances the pull −NK per length of the bow, no wave starts,
+and a₀ is the acceleration of the whole beam. A force that turned with the end would have no potential.
 
 **Walls** stand along a part of the beam, as constraints or as springs. With a second wall behind the beam every node
 has a constraint for either:
@@ -138,12 +138,17 @@ def beam_model(
     supports = left + tuple(range(beam.dofs - 2, beam.dofs - 2 + HELD[impact.right_end]))
     rows = rows_at_walls(contact.rows(beam, facing, full=full), impact, natural, supports)
     system = System(
-        mass=inertia, stiffness=stiffness, dampings=dampings, contacts=rows, supports=supports, bending=bending,
+        mass=inertia,
+        stiffness=stiffness,
+        dampings=dampings,
+        contacts=rows,
+        supports=supports,
+        bending=bending,
         load=nodal_loads(impact, beam, s, inertia, stiffness, dampings, follows=far_field.end == "following"),
         springs=springs_of(impact, beam, facing, full=full),
         second=NO_SPRINGS if impact.opposite_wall is None else springs_of(impact, beam, from_behind, -1.0, full=full),
         branches=NO_BRANCHES if branches is None else branches_at_rest(bending_stiffness, branches),
-    )  # fmt: skip
+    )
     behind = (np.arange(len(rows)) % 2 == 1) & (impact.opposite_wall is not None)
     return BeamModel(beam, system, displacement, velocity, natural, facing, behind, full, impact.axial_force)
 
@@ -188,8 +193,9 @@ def rows_at_walls(rows: ContactRows, impact: Impact, natural: Array, supports: t
         kept &= ~np.isin(rows.dofs[:, 0], supports)
     if not kept.any():
         begin, end = impact.wall_span
-        wall = f"the wall from {begin!r} to {end!r} m"
-        raise InputError(f"wall_from: no contact point stands before {wall}; take contact.kind = node")
+        raise InputError(
+            f"wall_from: no contact point stands before the wall from {begin!r} to {end!r} m; take contact.kind = node"
+        )
     rows = rows.at(kept)
     if impact.opposite_wall is None:
         return rows
@@ -209,7 +215,14 @@ def springs_of(impact: Impact, beam: HermiteBeam, facing: Array, side: float = 1
     begin, end = impact.wall_span
     share = 0.5 if begin == end and not full else 1.0
     return Springs(
-        stiffness=share * impact.wall_stiffness, damping=share * impact.wall_damping, facing=facing,
-        lengths=beam.lengths, shares=beam.phi / (1.0 + beam.phi), first=first, last=last,
-        stop=2 * first if begin == end else -1, side=side, at_landing=share * impact.damping_at_landing,
-    )  # fmt: skip
+        stiffness=share * impact.wall_stiffness,
+        damping=share * impact.wall_damping,
+        facing=facing,
+        lengths=beam.lengths,
+        shares=beam.phi / (1.0 + beam.phi),
+        first=first,
+        last=last,
+        stop=2 * first if begin == end else -1,
+        side=side,
+        at_landing=share * impact.damping_at_landing,
+    )

@@ -7,11 +7,17 @@ must be a fraction of ℓ where the front is, steps a fraction of its travel ove
 
 - mesh: elements in proportion to the distance, so that every decade of time is resolved alike; for a thin front
   (κ < ``THIN``) even ones over the zone that the run covers.
-- steps: constant at first, then in proportion to the time since impact; for a thin front constant. The first ones of
-  Signorini's scheme are so long that the front is three smallest elements thick after one (docs/numerics.md, cause 3).
-- integrator: Signorini at the new position leaves closed constraints on the wall; Moreau–Jean where they rebound.
-- a wall that gives way has scales of its own, ℓ_k of the pressure at the rim of the zone and t_k of the force
-  (:mod:`bent_beam.loads`). A zone that is short when the force is largest, κ/ν > 1, is then about ℓ_k(κ/ν)^−⅜ long.
+- steps: constant at first, then in proportion to the time since impact; for a thin front constant.
+- **the first steps** of Signorini's scheme are so long that the front is three smallest elements thick after one of
+  them. No mesh resolves the first instants: in short steps each node strikes the wall by itself and rebounds ("double
+  detachment", thesis 3.3.5), a long step of implicit Euler closes them together (docs/numerics.md).
+- integrator: Signorini at the new position, which leaves closed constraints exactly on the wall and does not rattle;
+  Moreau–Jean when constraints rebound.
+- contact: unilateral; nothing is held unless asked for, except in runs that measure what a pressing load changes.
+- far field: viscosity at grid scale.
+- a wall that gives way has scales of its own, ℓ_k and t_k (:mod:`bent_beam.loads`): the pressure falls off at
+  the rim of the zone over some ℓ_k, and the force rises and falls over some t_k, whatever the zone does. A zone that is
+  short when the force is largest, κ/ν > 1, has then a half length of about ℓ_k(κ/ν)^−⅜.
 
 Most of the constants below are studied in tests/comparison/test_constants.py: halved and doubled they move λ₀ and r₀ by
 at most 0.1 %. Those of an elastic wall, of a thin front and of the most elements are not.
@@ -107,25 +113,31 @@ def choose(impact: Impact, end_time: float, parts: Composition | None = None) ->
     except ValueError as error:
         if parts.mesh is not None:
             raise
-        front_at = f"the contact front at kappa/nu = {impact.kappa_over_nu:g} ({error})"
-        raise InputError(f"curvature: no mesh can be chosen that resolves {front_at}; give [mesh]") from None
+        raise InputError(
+            f"curvature: no mesh can be chosen that resolves the contact front at kappa/nu = "
+            f"{impact.kappa_over_nu:g} ({error}); give [mesh]"
+        ) from None
     contact = parts.contact or NodeContact()
     if impact.wall_stiffness is not None and parts.contact is not None:
-        got = type(contact).__name__
-        raise InputError(f"contact has no effect on a wall with a stiffness: leave it out (got {got})")
+        raise InputError(
+            f"contact has no effect on a wall with a stiffness: leave it out (got {type(contact).__name__})"
+        )
     integrator = parts.integrator or scheme_for(impact, contact)
     # from the mesh before it is refined: then the first step is refined like all others
     integrator = chosen_integrator(impact, end_time, coarse, integrator).refined(parts.refine)
     if contact.held and not integrator.holds:
         name, value = next(iter(contact.held.items()))
-        why = "has no effect with this integrator, whose rows may always open"
-        raise InputError(f"contact.{name} {why} (got {value!r})")
+        raise InputError(
+            f"contact.{name} has no effect with this integrator, whose rows may always open (got {value!r})"
+        )
     end = "free" if parts.domain is None else "following"
-    viscosity = GridViscosity.viscosity if integrator.damped else 0.0
-    far_field = parts.far_field or GridViscosity(end=end, viscosity=viscosity)
+    far_field = parts.far_field or (
+        GridViscosity(end=end) if integrator.damped else GridViscosity(end=end, viscosity=0.0)
+    )
     if parts.domain is not None and far_field.end != "following":
-        must = f'far_field.end must be "following" (got {far_field.end!r})'
-        raise InputError(f"domain cuts the beam where it goes on: {must}")
+        raise InputError(
+            f'domain cuts the beam where it goes on: far_field.end must be "following" (got {far_field.end!r})'
+        )
     return Choice(mesh, snapped(fine, impact.places), integrator, contact, far_field, parts.mass or ConsistentMass())
 
 

@@ -2,7 +2,7 @@
 
 import logging
 import time as clock
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,14 +10,14 @@ import numpy as np
 
 from bent_beam.checks import MOST_INSTANTS, affordable, whole
 from bent_beam.errors import InputError
-from bent_beam.method import Progress, Save
+from bent_beam.method import Progress
 from hermite_fe.active_set import CYCLING, NOT_FINITE, SINGULAR, SOLVED
 from hermite_fe.banded import product, stiff_product
 from hermite_fe.compiled import Array, Flags, Places, recompiling
 from hermite_fe.constraints import WORST, ContactLaw
 from hermite_fe.elastic_wall import PEAKS, stored_energy
 from hermite_fe.integrators import Integrator
-from hermite_fe.integrators.base import MOST_WORK, Reached
+from hermite_fe.integrators.base import MOST_WORK
 from hermite_fe.maxwell import branch_energy
 from hermite_fe.stepping import ENERGIES, LARGEST, problem_of, state_of
 from hermite_fe.system import System
@@ -62,19 +62,24 @@ class Trajectory:
 class Stepper:
     """A run in progress: ``advance_to`` takes steps, ``state`` is what they lead to.
 
-    Arguments as for :func:`integrate`. instants : all, (steps + 1,), s; step : the one reached.
+    Arguments as for :func:`integrate`; law : inelastic and unilateral unless given. instants : all instants, (steps +
+    1,), s; step : the one reached.
     """
 
     def __init__(
         self, system: System, q: Array, v: Array, integrator: Integrator, end_time: float, law: ContactLaw | None = None
     ) -> None:
-        law, kind = law or ContactLaw(), type(integrator).__name__
         if integrator.elastic != (system.springs.stiffness > 0.0):
-            use = "midpoint is for a wall with a stiffness, the others for a rigid one"
-            raise InputError(f"integrator.kind: {use}; leave it out (got {kind})")
+            raise InputError(
+                "integrator.kind: midpoint is for a wall with a stiffness, the others for a rigid one; leave it out "
+                f"(got {type(integrator).__name__})"
+            )
         if system.branches.shares.size and not integrator.hysteretic:
-            needs = "needs moreau_jean or signorini_position, before a wall with a stiffness midpoint"
-            raise InputError(f"integrator.kind: hysteretic_loss {needs}; leave it out (got {kind})")
+            raise InputError(
+                "integrator.kind: hysteretic_loss needs moreau_jean or signorini_position, before a wall with a "
+                f"stiffness midpoint; leave it out (got {type(integrator).__name__})"
+            )
+        law, kind = law or ContactLaw(), type(integrator).__name__
         if law.restitution > 0.0 and not integrator.rebounds:
             raise InputError(f"{kind} has no impact law: restitution must be 0 (got {law.restitution!r})")
         if (law.hold or law.hold_until) and not integrator.holds:
@@ -82,13 +87,15 @@ class Stepper:
         if not np.all(np.asarray(law.strength) >= 0.0):
             raise InputError(f"strength must be 0 or more, N (got {float(np.min(law.strength))!r})")
         if np.any(law.strength) and not integrator.sticks:
-            needs = "contact that may pull needs moreau_jean, or signorini_position with theta = 1"
-            raise InputError(f"integrator.kind: {needs} (got {kind})")
+            raise InputError(
+                "integrator.kind: contact that may pull needs moreau_jean, or signorini_position with theta = 1 "
+                f"(got {kind})"
+            )
         if np.any(law.strength):
             for name in ("restitution", "hold", "hold_until"):
                 if value := getattr(law, name):
-                    must = f"{name} must be 0 (got {value!r})"
-                    raise InputError(f"contact that may pull neither rebounds nor is held: {must}")
+                    what = "contact that may pull neither rebounds nor is held"
+                    raise InputError(f"{what}: {name} must be 0 (got {value!r})")
         for name, value in (("q", q), ("v", v)):
             if np.shape(value) != (system.dofs,):
                 raise InputError(f"{name} must have shape ({system.dofs},) (got {np.shape(value)})")
@@ -104,7 +111,7 @@ class Stepper:
         """Compile or load all functions by taking no step, so that the seconds of a run are those of its steps."""
         recompiling(lambda: (self._advance(self.step), self.energies()))
 
-    def _advance(self, step: int) -> Reached:
+    def _advance(self, step: int) -> tuple[int, int]:
         """What the integrator returns; it may be somebody else's."""
         found = self.integrator.advance(self.problem, self.state, self.memory, self.instants, self.step, step)
         if not (isinstance(found, tuple) and len(found) == 2):
@@ -142,9 +149,10 @@ class Stepper:
         return found["kinetic_energy"] + found["strain_energy"]
 
     def sums(self) -> dict[str, float]:
-        """:meth:`energies` now; since the start :data:`hermite_fe.stepping.ENERGIES` and, of all steps,
-        :data:`hermite_fe.elastic_wall.PEAKS`; since the last call the worst complementarity, at round-off in a correct
-        run (:data:`hermite_fe.constraints.WORST`), and the largest bending moments."""
+        """:meth:`energies` now; since the start the work of the loads and the losses, each by its own formula
+        (:data:`hermite_fe.stepping.ENERGIES`), and the largest of all steps at a wall that gives way
+        (:data:`hermite_fe.elastic_wall.PEAKS`); since the last call the worst complementarity, at round-off in a
+        correct run (:data:`hermite_fe.constraints.WORST`), and the largest bending moments."""
         state = self.state
         named = ((ENERGIES, state.energy), (PEAKS, state.peaks), (WORST, state.worst), (LARGEST, state.largest))
         found = self.energies() | {name: float(value) for names, values in named for name, value in zip(names, values)}
@@ -167,12 +175,17 @@ def trajectory_of(
     return Trajectory(
         **{name: np.array([sample.pop(name) for sample in samples]) for name in list(samples[0])},
         sums={name: np.array([row[name] for row in sums]) for name in sums[0]},
-        law=run.problem.law, steps=run.step, seconds=seconds, mean_iterations=rounds / max(solutions, 1),
-        most_iterations=most, failure=failure, failure_time=failure_time,
-    )  # fmt: skip
+        law=run.problem.law,
+        steps=run.step,
+        seconds=seconds,
+        mean_iterations=rounds / max(solutions, 1),
+        most_iterations=most,
+        failure=failure,
+        failure_time=failure_time,
+    )
 
 
-def saved_steps(instants: Array, save: Save) -> Places:
+def saved_steps(instants: Array, save: int | Sequence[float] | Array) -> Places:
     """Indices of the instants to keep: so many, evenly spaced in √t, or those nearest to given times; the first always.
 
     Raises ``ValueError`` for fewer than two, or times that are not increasing, negative or past the end.
@@ -201,7 +214,7 @@ def integrate(
     end_time: float,
     *,
     law: ContactLaw | None = None,
-    save: Save = 200,
+    save: int | Sequence[float] | Array = 200,
     progress: Progress | None = None,
     until: Callable[[Stepper], bool] | None = None,
 ) -> Trajectory:
@@ -217,8 +230,9 @@ def integrate(
     kept = saved_steps(run.instants, save)
     affordable("integrator and mesh", run.instants.size - 1, max(1, system.dofs // 2), kept.size, MOST_WORK)
     samples: list[dict[str, Any]] = []
+    failure = ""
     run.compile()
-    start, worked, started, said, failure = run.energy(), 0.0, clock.perf_counter(), False, ""
+    start, worked, started, said = run.energy(), 0.0, clock.perf_counter(), False
     for step in kept:
         status = run.advance_to(int(step))
         if status != SOLVED:

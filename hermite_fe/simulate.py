@@ -12,15 +12,15 @@ from bent_beam.history import ImpactHistory
 from bent_beam.hysteresis import branches_of
 from bent_beam.impact import WAVES_FELT, Impact, checked_impact
 from bent_beam.loads import UNSHEARED, unmodelled
-from bent_beam.method import Progress, Save
+from bent_beam.method import Progress
 from hermite_fe import resolution
-from hermite_fe.compiled import recompiling
+from hermite_fe.compiled import Array, recompiling
 from hermite_fe.contacts import Contact, NodeContact
 from hermite_fe.elastic_wall import PEAKS
 from hermite_fe.model import MODELLED, BeamModel, beam_model
 from hermite_fe.run import Stepper, Trajectory, integrate
 from hermite_fe.stepping import ENERGIES
-from hermite_fe.warnings_of_run import MOST_ROUNDS, ROUNDS, end_warnings, lift_warnings, resolution_warnings
+from hermite_fe.warnings_of_run import end_warnings, lift_warnings, resolution_warnings, rounds_warnings
 from hermite_fe.whole_beam import begins
 
 SHARED = {*ENERGIES, "kinetic_energy", "strain_energy", "branch_energy", "contact_energy", "peak_force"}
@@ -31,8 +31,10 @@ def refusal(impact: Impact, contact: Contact | None) -> str | None:
     """The reason why ``impact`` cannot be simulated with ``contact``, naming the field (``None``: it can)."""
     speed = impact.velocity + impact.rotation * impact.first_touch
     if speed <= 0.0:
-        there = f"the beam moves there at {speed:.6g} m/s (got {impact.rotation!r})"
-        return f"rotation must not take the first touch off the wall: {there}"
+        return (
+            f"rotation must not take the first touch off the wall: the beam moves there at {speed:.6g} m/s "
+            f"(got {impact.rotation!r})"
+        )
     if impact.shear_stiffness is not None:
         if impact.hysteretic_loss:
             return f"hysteretic_loss is not modelled with shear (got {impact.hysteretic_loss!r}){UNSHEARED}"
@@ -51,7 +53,7 @@ def simulate(
     impact: Impact,
     *,
     end_time: float | None = None,
-    save: Save = 200,
+    save: int | Sequence[float] | Array = 200,
     progress: Progress | None = None,
     until: Callable[[BeamModel, Stepper], bool] | None = None,
     **parts: Any,
@@ -74,18 +76,21 @@ def simulate(
     full_beam = composition.full_beam or impact.off_centre
     end = impact.checked_end_time(end_time)
     choice = resolution.choose(impact, end, composition)
-    parts_of_beam = impact, choice.nodes, choice.contact, choice.far_field
-    model = recompiling(lambda: beam_model(*parts_of_beam, full=full_beam, mass=choice.mass))
-    gaps, places = model.system.contacts.gaps(model.displacement), model.system.contacts.places
-    if gaps.min() < -1e-12 * np.abs(gaps).max():
-        raise InputError(
-            f"fourth_derivative bends the beam into the wall before the impact: the gap at "
-            f"x = {places[np.argmin(gaps)]:.6g} m is {gaps.min():.6g} m; shorten the beam"
-        )
-    law = choice.contact.checked_law(model.system.contacts, WAVES_FELT * impact.slow_time_scale)
-    start = model.system, model.displacement, model.velocity
-    leave = None if until is None else lambda run: until(model, run)
-    run = integrate(*start, choice.integrator, end, law=law, save=save, progress=progress, until=leave)
+    model = recompiling(
+        lambda: beam_model(impact, choice.nodes, choice.contact, choice.far_field, full=full_beam, mass=choice.mass)
+    )
+    check_start(model)
+    run = integrate(
+        model.system,
+        model.displacement,
+        model.velocity,
+        choice.integrator,
+        end,
+        law=choice.contact.checked_law(model.system.contacts, WAVES_FELT * impact.slow_time_scale),
+        save=save,
+        progress=progress,
+        until=None if until is None else lambda run: until(model, run),
+    )
     ended = until is not None and not run.failure
     settings = {
         "end_time": float(run.time[-1]) if ended else end,
@@ -95,7 +100,7 @@ def simulate(
         **settings_of_run(impact, choice, run),
     }
     history = history_of(impact, model, run, settings)
-    warnings = [ROUNDS.format(run.most_iterations)] if run.most_iterations > MOST_ROUNDS else []
+    warnings = rounds_warnings(run.most_iterations)
     if until is None and spreads(impact):
         warnings += resolution_warnings(impact, end, choice.nodes, choice.integrator)
         warnings += end_warnings(impact, end, choice.nodes, choice.far_field)
@@ -103,10 +108,15 @@ def simulate(
         warnings += lift_warnings(impact, model, history)
     history = history.with_warnings(warnings)
     if run.failure:
-        advice = "a smaller integrator.time_step or growth"
-        advice += ", more damping at grid scale (far_field.viscosity)" if choice.integrator.damped else ""
-        advice += "" if impact.wall_stiffness else ', or integrator.kind = "moreau_jean"'
-        raise SimulationError(run.failure, time=run.failure_time, step=run.steps, advice=advice, history=history)
+        raise SimulationError(
+            run.failure,
+            time=run.failure_time,
+            step=run.steps,
+            advice="a smaller integrator.time_step or growth"
+            + (", more damping at grid scale (far_field.viscosity)" if choice.integrator.damped else "")
+            + ("" if impact.wall_stiffness else ', or integrator.kind = "moreau_jean"'),
+            history=history,
+        )
     return history
 
 
@@ -134,6 +144,27 @@ def hold_report(run: Trajectory) -> dict[str, float | None] | None:
     return {"until": end if np.any(law.strength) else held, "pull": pull / push if push > 0.0 else None}
 
 
+def check_start(model: BeamModel) -> None:
+    """``ValueError`` when the beam starts inside the wall."""
+    rows = model.system.contacts
+    gaps = rows.gaps(model.displacement)
+    worst = int(np.argmin(gaps))
+    if gaps[worst] < -1e-12 * float(np.abs(gaps).max()):
+        raise InputError(
+            f"fourth_derivative bends the beam into the wall before the impact: the gap at "
+            f"x = {float(rows.places[worst]):.6g} m is {float(gaps[worst]):.6g} m; shorten the beam"
+        )
+
+
+def turnings_of(impact: Impact, model: BeamModel, run: Trajectory) -> dict[str, tuple[Sequence[str], NDArray[Any]]]:
+    """The second dof of the nodes: the slope, with shear the section's angle, its rate and the bending moment."""
+    turned, where = run.q[:, 1::2] + model.natural[1::2], ("time", "x")
+    if impact.shear_stiffness is None:
+        return {"slope": (where, turned)}
+    moment = model.bending_moments(run.q)
+    return {"angle": (where, turned), "angular_velocity": (where, run.v[:, 1::2]), "bending_moment": (where, moment)}
+
+
 def history_of(impact: Impact, model: BeamModel, run: Trajectory, settings: dict[str, Any]) -> ImpactHistory:
     """The record of a run: fields of the model, sums of the whole beam; of two walls the impulses apart, their sum with
     its sign."""
@@ -149,14 +180,10 @@ def history_of(impact: Impact, model: BeamModel, run: Trajectory, settings: dict
         sums = {name: values for name, values in sums.items() if name not in (*PEAKS, "loss_wall")}
     else:
         sums["contact_energy"] -= sums["contact_energy"][0]
-    turned = run.q[:, 1::2] + model.natural[1::2]  # with shear the sections' angle
-    nodal = {"gap": model.gap(run.q), "velocity": run.v[:, 0::2]}
-    if impact.shear_stiffness is None:
-        nodal["slope"] = turned
-    else:
-        nodal |= {"angle": turned, "angular_velocity": run.v[:, 1::2], "bending_moment": model.bending_moments(run.q)}
     fields: dict[str, tuple[Sequence[str], NDArray[Any]]] = {
-        **{name: (("time", "x"), values) for name, values in nodal.items()},
+        "gap": (("time", "x"), model.gap(run.q)),
+        "velocity": (("time", "x"), run.v[:, 0::2]),
+        **turnings_of(impact, model, run),
         "impulse": (("time", "contact"), run.impulse[:, front]),
         "in_contact": (("time", "contact"), run.closed[:, front]),
         "total_impulse": (("time",), copies * run.impulse @ towards),
@@ -168,7 +195,16 @@ def history_of(impact: Impact, model: BeamModel, run: Trajectory, settings: dict
         fields["in_contact"] = (("time", "contact"), run.closed[:, front] | run.closed[:, behind])
         fields["opposite_impulse"] = (("time", "contact"), run.impulse[:, behind])
     return ImpactHistory.build(
-        impact=impact, path="hermite", symmetry="full" if model.full else "half", settings=settings,
-        time=run.time, x=model.beam.nodes, contact_x=model.system.contacts.places[front], fields=fields,
-        warnings=(), steps=run.steps, seconds=run.seconds, completed=not run.failure,
-    )  # fmt: skip
+        impact=impact,
+        path="hermite",
+        symmetry="full" if model.full else "half",
+        settings=settings,
+        time=run.time,
+        x=model.beam.nodes,
+        contact_x=model.system.contacts.places[front],
+        fields=fields,
+        warnings=(),
+        steps=run.steps,
+        seconds=run.seconds,
+        completed=not run.failure,
+    )

@@ -17,7 +17,7 @@ from hermite_fe.stepping import Problem, State
 MAXIMUM_STEPS = 20_000_000
 MOST_WORK = 1e11  # steps x nodes: one to four hours
 Reached = tuple[int, int]
-"""A status of :mod:`hermite_fe.active_set` and the last step that is done: SOLVED and the last one if all went well."""
+"""A status of :mod:`hermite_fe.active_set` and the step reached: SOLVED and the last one asked for when all went well."""
 
 
 @dataclass(frozen=True)
@@ -80,9 +80,10 @@ class Integrator(Part, ABC):
         even = switch / step
         grown = math.log(end_time / switch) / math.log1p(growth) if switch < end_time else 0.0
         if not even + grown <= MAXIMUM_STEPS:
-            many = f"a run to t = {end_time:.4g} s takes {even + grown:.3g} steps, and {MAXIMUM_STEPS:.2g} are the most"
-            longer = f"a longer integrator.time_step (it is {step:.4g} s, growth {growth:g})"
-            raise InputError(f"{many}: give an earlier end, or {longer}")
+            raise InputError(
+                f"a run to t = {end_time:.4g} s takes {even + grown:.3g} steps, and {MAXIMUM_STEPS:.2g} are the most: "
+                f"give an earlier end, or a longer integrator.time_step (it is {step:.4g} s, growth {growth:g})"
+            )
         times = np.linspace(0.0, switch, max(1, math.ceil(even * (1.0 - 1e-12))) + 1)
         if switch < end_time:
             count = max(1, math.ceil(grown * (1.0 - 1e-12)))

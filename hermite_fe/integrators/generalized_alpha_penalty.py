@@ -4,10 +4,11 @@
 
 A node is closed while it is in the wall, where the sum of both may pull, as in Exudyn's own ``ObjectContactCoordinate``
 with linear damping. One that lands may be in the wall if taken as open, and off it if taken as closed: off the wall a
-node that was closed stays so as long as its force pushes. Constraints must touch one dof each: contact at nodes.
-Measured at κ/ν = 0.5 and 0.1, τ = 0.1: with k = 10⁵, d = 10³ λ₀ is 1.6 and 1.1 % off, with the 10⁷ and 3·10⁴ that
-these cases get by default 0.12 and 0.03 %. There is no impact law and no hold; what springs and dampers take in, stored
-or dissipated, is booked as loss in impacts.
+node that was closed stays so as long as its force pushes. (The Exudyn path is another discretisation: its contact never
+pulls, and its k and d go with the element.) Constraints must touch one dof each: contact at nodes. Measured at
+κ/ν = 0.5 and 0.1, τ = 0.1: with k = 10⁵, d = 10³ λ₀ is 1.6 and 1.1 % off, with the 10⁷ and 3·10⁴ that these cases get
+by default 0.12 and 0.03 %, with 10⁸ and 10⁵ 0.05 and 0.003 %. There is no impact law and no hold; what springs and
+dampers take in, stored or dissipated, is booked as loss in impacts.
 """
 
 import dataclasses
@@ -143,15 +144,20 @@ class GeneralizedAlphaPenalty(Integrator):
 
     def refined(self, factor: float) -> Self:
         """Steps shorter, the contact stiffer in proportion to their square: the error of the penalty must fall too."""
-        stiffness, damping = self.stiffness and self.stiffness * factor**2, self.damping and self.damping * factor
-        return dataclasses.replace(super().refined(factor), stiffness=stiffness, damping=damping)
+        return dataclasses.replace(
+            super().refined(factor),
+            stiffness=None if self.stiffness is None else self.stiffness * factor**2,
+            damping=None if self.damping is None else self.damping * factor,
+        )
 
     def with_defaults(self, impact: Impact, end_time: float | None) -> Self:
         """The shorter the run the stiffer, as the front is the thinner; T* / 10 is as good as longer ones."""
         mass, time = impact.mass_per_length, min(end_time or math.inf, 0.1 * impact.slow_time_scale)
-        stiffness = 1e5 * mass / time**2 if self.stiffness is None else self.stiffness
-        damping = 3e3 * mass / time if self.damping is None else self.damping
-        return dataclasses.replace(self, stiffness=stiffness, damping=damping)
+        return dataclasses.replace(
+            self,
+            stiffness=1e5 * mass / time**2 if self.stiffness is None else self.stiffness,
+            damping=3e3 * mass / time if self.damping is None else self.damping,
+        )
 
     def start(self, problem: Problem, state: State) -> PenaltyMemory:
         if self.stiffness is None or self.damping is None:
