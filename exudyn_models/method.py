@@ -7,7 +7,7 @@ are laid out by :mod:`exudyn_models.assembly`.
 """
 
 import dataclasses
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, Self
 
@@ -142,18 +142,16 @@ class ExudynModel(Part):
             for other in others:
                 if given := getattr(impact, other):
                     yield f"{other} is not modelled together with {name} (got {given!r}); the Hermite path follows both"
-        element = self.element or chosen_element(impact)
-        of_contact = contact.refuses(impact, element, self.integrator or contact.integrator)
-        yield from filter(
-            None, (element.refuses(impact), of_contact, None if true else _unfit_stiffness(element, impact))
-        )
-        yield from self._unused_of_solver(contact)
+        element, integrator = self.element or chosen_element(impact), self.integrator or contact.integrator
+        of_contact = contact.refuses(impact, element, integrator)
+        unfit = None if true else _unfit_stiffness(element, impact)
+        yield from filter(None, (element.refuses(impact), of_contact, unfit))
+        yield from self._unused_of_solver(contact, integrator)
         if true and impact.off_centre:
             yield "exudyn.geometry.kind true knows the symmetric bow only: with rotation or first_touch take linear"
 
-    def _unused_of_solver(self, contact: Contact) -> Iterator[str]:
+    def _unused_of_solver(self, contact: Contact, integrator: Integrator) -> Iterator[str]:
         """Of settings for what this run does not do: Newton's iterations, or repetitions of a step."""
-        integrator = self.integrator or contact.integrator
         explicit, rigid = integrator.explicit, isinstance(contact, Rigid)
         if self.solver is None or not (explicit or rigid):
             return
@@ -164,23 +162,13 @@ class ExudynModel(Part):
                 yield f"exudyn.solver.{name} has no effect with {other}: leave it out (got {value!r})"
 
     def simulate(
-        self,
-        impact: Impact,
-        *,
-        end_time: float | None = None,
-        save: Save = 200,
-        progress: Progress | None = None,
+        self, impact: Impact, *, end_time: float | None = None, save: Save = 200, progress: Progress | None = None
     ) -> ImpactHistory:
         """Follow ``impact`` to ``end_time`` (s); see :func:`exudyn_models.simulate`."""
         return simulate(impact, end_time=end_time, save=save, progress=progress, **made_of(self))
 
     def simulate_to_separation(
-        self,
-        impact: Impact,
-        *,
-        longest: float | None = None,
-        save: int = 2000,
-        progress: Progress | None = None,
+        self, impact: Impact, *, longest: float | None = None, save: int = 2000, progress: Progress | None = None
     ) -> ImpactHistory:
         """Follow ``impact`` until the beam has left for good (:func:`bent_beam.method.simulate_to_separation`)."""
         times, separation = separation_times(impact, longest, save), Separation(impact)
@@ -221,7 +209,7 @@ def simulate(
     end_time: float | None = None,
     save: Save = 200,
     view: bool = False,
-    progress: Callable[[float], object] | None = None,
+    progress: Progress | None = None,
     until: Until | None = None,
     **parts: Any,
 ) -> ImpactHistory:
@@ -257,14 +245,10 @@ def simulate(
         raise SimulationError(stepping.failure or "", time=0.0, step=0, advice=stepping.advice)
     saved = targets[: stepping.saved] * end if stepping.left else np.asarray(save)  # what a rerun needs
     settings = {"end_time": end, "save": saved.tolist(), **stepping.settings_of_run()}
-    history = stepping.run.history(
-        settings=settings,
-        steps=stepping.steps,
-        seconds=stepping.seconds,
-        completed=stepping.failure is None,
-    )
+    steps, failure = stepping.steps, stepping.failure
+    history = stepping.run.history(settings=settings, steps=steps, seconds=stepping.seconds, completed=failure is None)
     history = history.with_warnings(warnings_of_run(stepping, history))
-    if stepping.failure is not None:
+    if failure is not None:
         time, advice = float(history.time[-1]), stepping.advice
-        raise SimulationError(stepping.failure, time=time, step=stepping.steps, advice=advice, history=history)
+        raise SimulationError(failure, time=time, step=steps, advice=advice, history=history)
     return history

@@ -18,7 +18,7 @@ import numpy as np
 from bent_beam.checks import MOST_INSTANTS, affordable, between, whole
 from bent_beam.errors import InputError
 from bent_beam.fields import describe
-from bent_beam.method import Save
+from bent_beam.method import Progress, Save
 from exudyn_models.assembly import Chosen, Layout, assemble, settings_of, stable_step
 from exudyn_models.geometry import Array
 from exudyn_models.recording import Recorder
@@ -73,12 +73,7 @@ class Stepping:
     """
 
     def __init__(
-        self,
-        layout: Layout,
-        chosen: Chosen,
-        targets: Array,
-        progress: Callable[[float], object] | None,
-        until: Until | None,
+        self, layout: Layout, chosen: Chosen, targets: Array, progress: Progress | None, until: Until | None
     ) -> None:
         scaling, integrator, nodes = layout.scaling, chosen.integrator, layout.shape.s.size
         if nodes > MOST_NODES:
