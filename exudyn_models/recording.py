@@ -132,16 +132,17 @@ class Recorder:
         if len(self._rows) < 2 and not self._pending:
             return
         time, q, v, a, force, along, active = (np.array(column) for column in zip(*self._rows))
-        dt, beam, saved = np.diff(time), self.beam, self._pending
+        beam, shape, saved = self.beam, self.beam.shape, self._pending
         gains = self._of_energy(time, q, v, a) | self._of_contact(time, q, v, force, along)
         after = {name: onwards(self.sums[name], gain) for name, gain in gains.items()}
         total = self.start_momentum + after["load_impulse"] - v @ self.momentum
-        of_law = self._impulses_of_law(dt, force)
+        averaged, self._averaged = self.averages.impulses(force, self._averaged)
+        of_law = averaged * np.diff(time)[:, None]  # at each point in each step, (steps, contacts)
         after["law_impulse"] = onwards(self.sums["law_impulse"], of_law.sum(axis=1))
         after["impulse"] = onwards(self.sums["impulse"], self._shared(of_law, q, np.diff(total)))
         if self.scaling.impact.supported:
             total = after["law_impulse"]
-        y, slope = q[:, beam.vertical] - beam.shape.wall_y, beam.slope(q) - beam.shape.wall_slope
+        y, slope = q[:, beam.vertical] - shape.wall_y, beam.slope(q) - shape.wall_slope
         moments = beam.bending_moments(q) + self.unbent
         now = {"time": time, "y": y, "velocity": v[:, beam.vertical], "slope": slope}
         now |= {"total_impulse": total, "in_contact": active}
@@ -152,7 +153,9 @@ class Recorder:
         self.record["kinetic_energy"] += beam.kinetic_energy(v[saved]).tolist()
         self.record["strain_energy"] += beam.strain_energy(q[saved]).tolist()
         self.record["stretch_energy"] += beam.stretch_energy(q[saved]).tolist()
-        self._note_moments(moments)
+        largest = nodal_largest(moments)
+        middle, where = largest[:, np.argmin(np.abs(shape.s))], shape.place[largest.argmax(axis=1)]
+        self._keep_largest("moments", largest.max(axis=1), where, middle, anew=True)
         self.sums |= {name: values[-1] for name, values in after.items()}
         self.total = float(total[-1])
         late = time > (0.1 if beam.shears else 0.01)  # its first hits are those of a string
@@ -160,12 +163,6 @@ class Recorder:
             depth = y[late][:, self.contact.nodes].max(axis=1)  # what lies beyond them is let through
             self.deepest = max(self.deepest, float((depth / time[late]).max()))
         self._pending, self._rows = [], self._rows[-1:]
-
-    def _note_moments(self, moments: Array) -> None:
-        """The largest bending moment since the saved instant before, its place, and the one in the middle."""
-        shape, nodes = self.beam.shape, nodal_largest(moments)
-        middle = nodes[:, np.argmin(np.abs(shape.s))]
-        self._keep_largest("moments", nodes.max(axis=1), shape.place[nodes.argmax(axis=1)], middle, anew=True)
 
     def _keep_largest(self, name: str, sizes: Array, where: Array, *others: Array, anew: bool) -> None:
         """Save with each instant the largest of ``sizes``, ``where`` it was, and the largest of each of ``others``, of
@@ -220,11 +217,6 @@ class Recorder:
             gains["loss_wall"] = products(means(dashpots), deeper)
         return gains
 
-    def _impulses_of_law(self, dt: Array, force: Array) -> Array:
-        """Impulse of the contact law's force at each point in each step, (steps, contacts), as the scheme averages."""
-        gain, self._averaged = self.averages.impulses(force, self._averaged)
-        return np.asarray(gain * dt[:, None])
-
     def _shared(self, gain: Array, q: Array, total: Array) -> Array:
         """``gain`` of each contact point in each step, (steps, contacts). What its sum lacks of ``total``, (steps,), is
         shared among those that push: an explicit scheme has forces within its steps, too."""
@@ -272,11 +264,8 @@ class Recorder:
         of_time = {n: saved[n] * self.copies * s.impulse for n in ("total_impulse", "law_impulse", "held_impulse")}
         of_time |= {name: saved[name] * self.copies * s.energy for name in ENERGIES if name in saved}
         largest, place, midspan = saved["moments"].T
-        of_time |= {
-            "largest_moment": largest * moment,
-            "largest_moment_place": place * s.length,
-            "largest_midspan_moment": midspan * moment,
-        }
+        of_time |= {"largest_moment": largest * moment, "largest_moment_place": place * s.length}
+        of_time |= {"largest_midspan_moment": midspan * moment}
         if s.impact.wall_stiffness is not None:
             force, when, depth, pressure = saved["peaks"].T
             of_time |= {
