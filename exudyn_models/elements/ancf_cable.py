@@ -67,15 +67,14 @@ class _Cable(Beam):
         """κ − κ₀ at the points of ``shapes``, (…, elements, points)."""
         return np.asarray(self._curvature(*self._fields(q, shapes, 1, 2)) - self.shape.curvature)
 
-    def _integral(self, values: Array) -> Array:
-        return np.asarray((values * (self.lengths[:, None] * WEIGHTS / 2)).sum(axis=(-2, -1)))
-
     def slope(self, q: Array) -> Array:
         return np.asarray(q[..., self.rotation] / (1.0 + q[..., self.horizontal + 2]))
 
-    def axial_strain(self, q: Array) -> Array:
+    def axial_energy(self, q: Array) -> Array:
         x1, y1 = self._fields(q, AT_STRETCH, 1)
-        return np.asarray(np.hypot(1.0 + x1, y1) - 1.0)
+        square = (np.hypot(1.0 + x1, y1) - 1.0) ** 2 - self.stretch**2
+        integral = (square * (self.lengths[:, None] * WEIGHTS / 2)).sum(axis=(-2, -1))
+        return np.asarray(self.axial_stiffness * integral / 2)
 
     def bending_energy(self, q: Array) -> Array:
         return np.asarray((self._bent(q, AT_BENDING) ** 2).mean(axis=-1) @ self.lengths) / 2

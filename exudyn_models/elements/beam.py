@@ -188,10 +188,6 @@ class Beam(ABC):
         """dy/dx at the nodes; of a beam that shears the angle of its sections."""
 
     @abstractmethod
-    def axial_strain(self, q: Array) -> Array:
-        """At the integration points, shape (…, elements, points)."""
-
-    @abstractmethod
     def bending_energy(self, q: Array) -> Array:
         """With that of shear. Of one state, or of each of several, q (states, coordinates)."""
 
@@ -200,13 +196,8 @@ class Beam(ABC):
         """EI(κ − κ₀) of the element's own curvature at both its ends, shape (…, elements, 2)."""
 
     @abstractmethod
-    def _integral(self, values: Array) -> Array:
-        """Over the beam of values at the integration points."""
-
     def axial_energy(self, q: Array) -> Array:
         """Less that of the stretch under the axial force."""
-        square = self.axial_strain(q) ** 2 - self.stretch**2
-        return self.axial_stiffness * self._integral(square) / 2
 
     def strain_energy(self, q: Array) -> Array:
         """What the beam holds but for :meth:`stretch_energy`."""

@@ -73,8 +73,9 @@ class _Exact(Beam):
     def _integral(self, values: Array) -> Array:
         return np.asarray((values * self.lengths).sum(axis=-1))
 
-    def axial_strain(self, q: Array) -> Array:
-        return self._strains(q)[0]
+    def axial_energy(self, q: Array) -> Array:
+        stretch, _ = self._strains(q)
+        return self.axial_stiffness * self._integral(stretch**2 - self.stretch**2) / 2
 
     def _bent(self, q: Array) -> Array:
         """κ − κ₀ of each element."""
