@@ -48,6 +48,8 @@ STIFFNESS, DAMPING = 10.0, 3.0  # C and D
 PLASTIC = 40.0  # D behind a thin front
 MATCHED = 4.0 * math.sqrt(3.0)  # D with shear, elements shorter than l_s: d Δx = 2√(κ_sGA μ) …
 DAMPED = 4.0  # … unless the material's own damping takes as many element times: hits are then plastic by themselves
+CHOSEN_STIFFNESS = f"{STIFFNESS:g} or more (whole beam, κ/ν < 1: 1.25)"
+CHOSEN_DAMPING = f"{DAMPING:g}√(C/10) (thin front {PLASTIC:g}, with shear {MATCHED:.3g} times that root)"
 
 
 def matched(element: float, shear_length: float, damping: float) -> bool:
@@ -164,22 +166,10 @@ class Penalty(Contact):
     """Nodal penalty: the default."""
 
     relative_stiffness: Annotated[
-        float | None,
-        Quantity(
-            "",
-            "C in k = C EI/Δx⁴ per length of beam",
-            above=0.0,
-            absent=f"{STIFFNESS:g} or more (whole beam, κ/ν < 1: 1.25)",
-        ),
+        float | None, Quantity("", "C in k = C EI/Δx⁴ per length of beam", above=0.0, absent=CHOSEN_STIFFNESS)
     ] = None
     relative_damping: Annotated[
-        float | None,
-        Quantity(
-            "",
-            "D in d = D √(EIμ)/Δx²",
-            least=0.0,
-            absent=f"{DAMPING:g}√(C/10) (thin front {PLASTIC:g}, with shear {MATCHED:.3g} times that root)",
-        ),
+        float | None, Quantity("", "D in d = D √(EIμ)/Δx²", least=0.0, absent=CHOSEN_DAMPING)
     ] = None
     stiffness: Annotated[
         float | None, Quantity("N/m²", "k itself: N/m per m of beam, of all nodes alike", above=0.0, absent="as C says")
@@ -232,9 +222,10 @@ def covered(depth: Array, lengths: Array) -> Array:
 
 
 class SpringsRun(PenaltyRun):
-    def __init__(self, beam: Beam, wall: Wall, stiffness: float) -> None:
+    def __init__(self, beam: Beam, wall: Wall) -> None:
+        assert wall.stiffness is not None
         strip = HeldStrip(wall, hold=0, start=0.0)
-        super().__init__(beam, wall, stiffness * wall.weights, wall.damping * wall.weights, strip, {})
+        super().__init__(beam, wall, wall.stiffness * wall.weights, wall.damping * wall.weights, strip, {})
         self.wall, self.wall_springs = wall, self.stiffness
 
     def between(self, time: float, step: float, q: Array, v: Array) -> bool:
@@ -280,5 +271,4 @@ class Springs(Contact):
         return None
 
     def attach(self, beam: Beam, wall: Wall) -> ContactRun:
-        assert wall.stiffness is not None
-        return SpringsRun(beam, wall, wall.stiffness)
+        return SpringsRun(beam, wall)

@@ -39,7 +39,7 @@ class _Run(ContactRun):
         self, beam: Beam, elements: Indices, stiffness: Array, damping: Array, friction: float, sliding: Array
     ) -> None:
         nodes = np.append(elements, elements[-1] + 1)
-        super().__init__(beam, nodes, beam.shape.wall_curvature * beam.shape.s[nodes] ** 2 / 2)
+        super().__init__(beam, nodes, beam.shape.wall_y[nodes])
         self.elements, self.stiffness, self.damping = elements, stiffness, damping
         self.friction, self.sliding = friction, sliding
         self.radius = 1.0 / beam.shape.wall_curvature
