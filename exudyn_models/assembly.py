@@ -24,7 +24,7 @@ from exudyn_models.elements import Beam, Element
 from exudyn_models.elements.beam import VISCOSITY, VISCOSITY_EXPLICIT, VISCOSITY_SHEARED
 from exudyn_models.geometry import STEEPEST, Array, Geometry, Scaling, Shape, Units, element_times, supports_or_plate
 from exudyn_models.integrators import Integrator
-from exudyn_models.resolution import lasts_until_waves_return, modelled_half_length, reachable, thin_front
+from exudyn_models.resolution import THIN, lasts_until_waves_return, modelled_half_length, reachable
 from exudyn_models.solvers import NewtonSolver
 
 MODELLED = ("acceleration", "curvature_rate", "fourth_derivative", "axial_force", "rotation", "shear_stiffness",
@@ -160,7 +160,7 @@ def _wall(beam: Beam, chosen: Chosen) -> Wall:
     waves_return = BEFORE_WAVES_RETURN * impact.slow_time_scale / scaling.end_time
     # a material that damps waves at grid scale makes hits plastic itself: more would stop nodes ahead of the wall
     damped = scaling.material_damping > VISCOSITY * element_times(beam.lengths, scaling.shear_length).min()
-    thin = thin_front(scaling.kappa) and not supports_or_plate(impact) and not damped
+    thin = scaling.kappa < THIN and not supports_or_plate(impact) and not damped
     opposite, stiffness = impact.opposite_wall, impact.wall_stiffness
     unit = impact.bending_stiffness / scaling.length ** (4 if lengths.any() else 3)
     return Wall(

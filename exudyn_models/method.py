@@ -28,7 +28,7 @@ from exudyn_models.elements import ELEMENTS, Element, chosen_element
 from exudyn_models.geometry import GEOMETRIES, Array, Geometry, supports_or_plate
 from exudyn_models.integrators import INTEGRATORS, Implicit, Integrator
 from exudyn_models.recording import Recorder
-from exudyn_models.resolution import chosen_mesh, chosen_steps, thin_front
+from exudyn_models.resolution import THIN, chosen_mesh, chosen_steps
 from exudyn_models.solvers import SOLVERS, USUAL, NewtonSolver, filled, quiet
 from exudyn_models.stepping import Stepping, Until, saved_times
 from exudyn_models.warnings_of_run import warnings_of_run
@@ -192,7 +192,7 @@ def _unfit_stiffness(element: Element, impact: Impact) -> str | None:
 
 def held_for(contact: Contact | None, impact: Impact) -> Contact:
     """The contact with the hold that suits the load, for the runs with and without load."""
-    spreads = not thin_front(impact.kappa_over_nu) and impact.kappa_over_nu < 1.0
+    spreads = THIN <= impact.kappa_over_nu < 1.0
     if impact.zone_pressure > 0.0 and contact is None and spreads:
         # The load first closes what the rebound of the first instants has left. λ₁ of (4, 0, 0) at κ/ν = 0.5 is
         # 12 % off without the hold, 0.1 % with it. Behind a thin front nothing rebounds, behind a point nothing is.

@@ -14,7 +14,7 @@ import numpy as np
 
 from bent_beam import Impact
 from bent_beam.impact import BEFORE_WAVES_RETURN
-from bent_beam.loads import WallScales, wall_scales
+from bent_beam.loads import wall_scales
 from bent_beam.meshes import Mesh, NodesMesh, ScaleFreeMesh
 from exudyn_models.geometry import Array, Indices, Scaling, supports_or_plate
 from exudyn_models.integrators import Implicit
@@ -77,7 +77,7 @@ def chosen_mesh(impact: Impact, end_time: float | None = None, *, explicit: bool
         element, growth, zone = min(max(front, 0.5) / 25, (2.0 / front) / 10), GROWTH_OF_WAVES, None
         if scaling.kappa < 1.0:
             element = min(element, front * max(1.0 - scaling.kappa, SHORTEST_EXPLICIT) / OF_SHORT_ZONE_EXPLICIT)
-    elif thin_front(scaling.kappa):
+    elif scaling.kappa < THIN:
         count = min(max(OF_THIN_FRONT * front**2 / 2.0, LEAST_OF_ZONE), MOST_OF_ZONE)
         element, growth, zone = front / count, 0.0, BEYOND_THIN_FRONT * front
     else:
@@ -113,37 +113,27 @@ def shortest_element(mesh: Mesh, impact: Impact) -> float:
     return float(np.diff(mesh.nodes(modelled_half_length(mesh, impact))).min())
 
 
-def step_of_wall(mesh: Mesh, impact: Impact, wall: WallScales) -> float:
-    """The time step, s, before a wall that gives way."""
-    return min(STEP_OF_WALL * shortest_element(mesh, impact) / wall.length, LONGEST_OF_WALL) * wall.time
-
-
 def resolving_step(mesh: Mesh, impact: Impact) -> float:
     """The time step, s, that resolves the contact of the shortest element: half of the time in which a bending wave
-    passes it, ½Δx²√(μ/EI), or a shear wave where it is shorter than l_s."""
-    length = shortest_element(mesh, impact)
+    passes it, ½Δx²√(μ/EI), or a shear wave where it is shorter than l_s; a share of t_k before a soft wall."""
+    length, wall = shortest_element(mesh, impact), wall_scales(impact)
+    if wall is not None:
+        return min(STEP_OF_WALL * length / wall.length, LONGEST_OF_WALL) * wall.time
     return STEP * length * max(length, impact.shear_length) / impact.wave_constant
-
-
-def thin_front(kappa_over_nu: float) -> bool:
-    """Whether no mesh of moderate size resolves the bending ahead of the front."""
-    return kappa_over_nu < THIN
 
 
 def chosen_steps(integrator: Implicit, factor: float, mesh: Mesh, impact: Impact, end: float) -> Implicit:
     """``integrator``, whose steps are open, with the steps of this run.
 
     Until waves are back from the ends: its own relative step over ``factor``, in which a thin front passes ``PASSED``
-    elements at most. Later: :func:`resolving_step`. If that took more than ``MOST_STEPS``, the relative step stays, and
-    a contact that gives energy is told.
+    elements at most. Later, and before a soft wall: :func:`resolving_step`. If that took more than ``MOST_STEPS``
+    later, the relative step stays, and a contact that gives energy is told.
     """
-    if (wall := wall_scales(impact)) is not None:
-        return dataclasses.replace(integrator, time_step=step_of_wall(mesh, impact, wall))
     returned, step = lasts_until_waves_return(impact, end), resolving_step(mesh, impact)
-    if returned and end <= MOST_STEPS * step:
+    if impact.wall_stiffness is not None or (returned and end <= MOST_STEPS * step):
         return dataclasses.replace(integrator, time_step=step)
     relative = integrator.default_step / factor
-    if thin_front(impact.kappa_over_nu) and not returned:
+    if impact.kappa_over_nu < THIN and not returned:
         # the front, x ~ √t, in the last step
         scaling, places = Scaling(impact, end), mesh.nodes(modelled_half_length(mesh, impact))
         k = min(max(int(np.searchsorted(places, scaling.front * scaling.length)), 1), places.size - 1)

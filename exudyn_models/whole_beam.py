@@ -10,8 +10,6 @@ Nothing is held, nothing damped but by the beam itself, and every part of the be
   elements are shorter, and to make up for it steps are 2√2 times ½Δx²√(μ/EI), and the penalty is an eighth as stiff,
   with the same damping ratio: kh² and dh stay what they are.
 - Off the wall there are only waves of ω ~ 1/√(ηT*): the steps of a damped beam grow there with its gap.
-- A rigid plate, whose hits are plastic, takes steps four times as long.
-- Elements that are shorter than l_s follow shear waves, and so do steps: h = ½Δx/c_s, or twice as long.
 """
 
 import dataclasses
@@ -27,7 +25,7 @@ from exudyn_models.contacts import Penalty, penalty
 from exudyn_models.elements import chosen_element
 from exudyn_models.geometry import supports_or_plate
 from exudyn_models.integrators import Implicit, Trapezoidal
-from exudyn_models.resolution import STEP, near_buckling, resolving_step, shortest_element, step_of_wall
+from exudyn_models.resolution import STEP, near_buckling, resolving_step, shortest_element
 from exudyn_models.solvers import NewtonSolver, filled
 
 M = TypeVar("M", bound=Any)  # :class:`exudyn_models.method.ExudynModel`, which has these functions as methods
@@ -57,7 +55,7 @@ def for_whole_beam(method: M, impact: Impact) -> M:
         elements = max(elements, round(impact.half_length / (LARGEST_OF_WALL * wall.length)))
     mesh = method.mesh or UniformMesh(impact.half_length / round(elements * near_buckling(impact)))
     mesh = mesh.refined(method.refine)
-    chosen = method.mesh is None and method.contact is None and method.integrator is None
+    chosen = method.mesh is method.contact is method.integrator is wall is None
     plate = supports_or_plate(impact)  # whose flat beams meet all of it at once, without a front
     spreads = FLATTEST_FRONT <= impact.kappa_over_nu < 1.0
     slower = 1.0 if not chosen else SLOWER_ON_PLATE if plate else SLOWER if spreads else 1.0
@@ -65,8 +63,7 @@ def for_whole_beam(method: M, impact: Impact) -> M:
         plate, slower = False, SLOWER_SHEARED if chosen and impact.kappa_over_nu >= THICK else 1.0
     integrator = Trapezoidal() if method.integrator is None else method.integrator.refined(method.refine)
     if isinstance(integrator, Implicit) and integrator.is_open:
-        step = slower * resolving_step(mesh, impact) if wall is None else step_of_wall(mesh, impact, wall)
-        slow = impact.slow_time_scale
+        step, slow = slower * resolving_step(mesh, impact), impact.slow_time_scale
         flight = min(FLIGHT * slow, DAMPED_FLIGHT * math.sqrt(impact.damping * slow))
         free = wall is None and impact.shear_stiffness is None and not supports_or_plate(impact)
         flight_step = flight if free and flight > 2.0 * step else None  # None: steps off the wall are like those at it
