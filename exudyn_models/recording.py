@@ -101,7 +101,7 @@ class Recorder:
         along = self.contact.along
         if not self._rows:
             # all contacts are open when Exudyn computes the first accelerations
-            force, along = np.zeros_like(force), None if along is None else np.zeros_like(along)
+            force, along = np.zeros_like(force), np.zeros_like(along)
             self.start_momentum = float(v @ self.momentum)
             self.start_stored = self.contact.stored_energy(q)
         else:
@@ -199,10 +199,9 @@ class Recorder:
         depth = q[:, contact.coordinates] - contact.wall_y
         deeper = np.diff(depth, axis=0)
         pushes = mean * contact.signs * np.diff(time)[:, None]
-        gains = {"contact_work": products(mean, deeper), "held_impulse": np.minimum(pushes, 0.0).sum(axis=1)}
-        if contact.along is not None:
-            moved = np.diff(q[:, self.beam.horizontal[contact.nodes]], axis=0)
-            gains["contact_work"] = gains["contact_work"] - products(means(along), moved)
+        moved = np.diff(q[:, self.beam.horizontal[contact.nodes]], axis=0)
+        work = products(mean, deeper) - products(means(along), moved)
+        gains = {"contact_work": work, "held_impulse": np.minimum(pushes, 0.0).sum(axis=1)}
         if contact.held_until:  # no other law pulls
             gains |= {"pulls": np.maximum(-pushes, 0.0), "pushes": pushes}
         if contact.wall_springs is not None:

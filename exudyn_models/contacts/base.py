@@ -108,23 +108,23 @@ class ContactRun(ABC):
     """A contact at work in one system.
 
     nodes : of the beam, those that are contact points; contact_s : their arc lengths; coordinates : their y in the
-        system's vectors; wall_y : the wall there; signs : +1 on the wall, −1 on an opposite one. Each (contacts,).
+        system's vectors; wall_y : the wall there; signs : +1 on the wall, −1 on an opposite one; along : forces on the
+        beam along x with the last ``forces``. Each (contacts,).
     """
 
     iterated = True  # Exudyn finds the contact state by repeating steps
     states = 1  # data coordinates of a connector, the first a gap: the connector is closed where it is not positive
     imposes = False  # whether ``closed_by`` says which connectors are closed, in the place of the signs of gaps
-    along: Array | None = None  # forces on the beam along x with the last ``forces``, (contacts,), where there are any
     assumed: Array | None = None  # the states that the last step was solved with, where Exudyn finds them
     wall_springs: Array | None = None  # stiffness at the contact points of a wall that gives way, (contacts,)
-    strip: HeldStrip | None = None  # of a contact that may hold captured nodes
+    held_until = 0.0  # when (of the end time) the last point is let go that may have been held; 0: none ever is
     chosen: Mapping[str, float] = {}  # settings that were left open, as they were chosen
     round_off = 0.0  # force in Exudyn's connectors that means nothing: no residual can be made smaller
 
     def __init__(self, beam: Beam, nodes: Indices, wall_y: Array, signs: Array | None = None) -> None:
         self.beam, self.nodes, self.wall_y = beam, nodes, wall_y
         self.contact_s, self.coordinates = beam.shape.s[nodes], beam.vertical[nodes]
-        self.signs = np.ones(nodes.size) if signs is None else signs
+        self.signs, self.along = np.ones(nodes.size) if signs is None else signs, np.zeros(nodes.size)
         self.connectors: list[Any] = []  # Exudyn's object numbers
 
     def depth(self, q: Array) -> Array:
@@ -166,11 +166,6 @@ class ContactRun(ABC):
     def stiffness_and_damping(self) -> tuple[Array, Array]:
         """Stiffness and damping of the closed contact at each *beam node*, shape (nodes,): for the stable step."""
         raise InputError("exudyn.contact: this contact does not work with explicit integrators")
-
-    @property
-    def held_until(self) -> float:
-        """When (of the end time) the last contact point is let go that may have been held; 0: none ever is."""
-        return 0.0 if self.strip is None else self.strip.until
 
 
 @dataclass(frozen=True)

@@ -72,9 +72,7 @@ class PenaltyRun(ContactRun):
 
     imposes = True
 
-    def __init__(
-        self, beam: Beam, wall: Wall, stiffness: Array, damping: Array, strip: HeldStrip, chosen: dict[str, float]
-    ) -> None:
+    def __init__(self, beam: Beam, wall: Wall, stiffness: Array, damping: Array, strip: HeldStrip) -> None:
         nodes, wall_y, signs = wall.nodes, beam.shape.wall_y[wall.nodes], np.ones(wall.nodes.size)
         if wall.opposite is not None:
             nodes = np.tile(nodes, 2)
@@ -82,9 +80,8 @@ class PenaltyRun(ContactRun):
             wall_y = np.concatenate([wall_y, np.full(wall.nodes.size, wall.opposite)])
             signs = np.concatenate([signs, -signs])
         super().__init__(beam, nodes, wall_y, signs)
-        self.chosen, self.explicit = chosen, wall.explicit
-        self.strip: HeldStrip = strip
-        self.stiffness, self.damping = stiffness, damping
+        self.strip, self.held_until = strip, strip.until
+        self.stiffness, self.damping, self.explicit = stiffness, damping, wall.explicit
         self.held = np.zeros(nodes.size, bool)
         markers = [beam.marker(int(node), beam.vertical_coordinate) for node in nodes]
         self.connectors = [beam.mbs.AddObject(self._connector(k, marker)) for k, marker in enumerate(markers)]
@@ -207,8 +204,9 @@ class Penalty(Contact):
         d = damping / times if self.damping is None else self.damping / beam.scaling.damping
         strip = HeldStrip(wall, self.hold, 0.0 if plastic and self.hold_start is None else self.hold_start)
         chosen = {"stiffness": stiffness, "damping": damping}
-        about = {f"relative_{name}": one for name, one in chosen.items() if getattr(self, name) is None}
-        return PenaltyRun(beam, wall, k * length, d * length, strip, about)
+        run = PenaltyRun(beam, wall, k * length, d * length, strip)
+        run.chosen = {f"relative_{name}": one for name, one in chosen.items() if getattr(self, name) is None}
+        return run
 
 
 def covered(depth: Array, lengths: Array) -> Array:
@@ -225,7 +223,7 @@ class SpringsRun(PenaltyRun):
     def __init__(self, beam: Beam, wall: Wall) -> None:
         assert wall.stiffness is not None
         strip = HeldStrip(wall, hold=0, start=0.0)
-        super().__init__(beam, wall, wall.stiffness * wall.weights, wall.damping * wall.weights, strip, {})
+        super().__init__(beam, wall, wall.stiffness * wall.weights, wall.damping * wall.weights, strip)
         self.wall, self.wall_springs = wall, self.stiffness
 
     def between(self, time: float, step: float, q: Array, v: Array) -> bool:

@@ -44,7 +44,6 @@ class _Run(ContactRun):
         self.friction, self.sliding = friction, sliding
         self.radius = 1.0 / beam.shape.wall_curvature
         self.round_off = float(np.finfo(float).eps * self.radius * stiffness.max())
-        self.along = np.zeros(nodes.size)
 
     def _closest(self, q: Array) -> tuple[Array, Array, Array, Array]:
         """Gap of each segment, where on it (0 … 1), and the normals away from the wall there and at the nodes, each of
