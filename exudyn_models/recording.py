@@ -39,17 +39,11 @@ def means(rows: Array) -> Array:
     return np.asarray((rows[1:] + rows[:-1]) / 2)
 
 
-def nodal_means(ends: Array) -> Array:
-    """Of what both elements say at a node, (rows, nodes), from (rows, elements, 2)."""
-    sums = np.pad(ends[..., 0], ((0, 0), (0, 1))) + np.pad(ends[..., 1], ((0, 0), (1, 0)))
-    sums[:, 1:-1] /= 2.0
-    return np.asarray(sums)
-
-
-def nodal_largest(ends: Array) -> Array:
-    """Likewise the size of the larger."""
-    sizes = np.pad(np.abs(ends), ((0, 0), (1, 1), (0, 0)))
-    return np.asarray(np.maximum(sizes[:, :-1, 1], sizes[:, 1:, 0]))
+def sides(ends: Array) -> tuple[Array, Array]:
+    """What the elements left and right of a node say there, each (rows, nodes), 0 beyond the ends of the beam; from
+    (rows, elements, 2)."""
+    padded = np.pad(ends, ((0, 0), (1, 1), (0, 0)))
+    return padded[:, :-1, 1], padded[:, 1:, 0]
 
 
 def onwards(before: Any, gains: Array) -> Array:
@@ -81,7 +75,7 @@ class Recorder:
         fastest = max(np.abs(shape.velocity_y).max(), np.abs(driven).max())  # at first, by loads in the end
         self.fastest = float(fastest) + scaling.amplitude * scaling.pushed
         self.pushes = 0
-        self._averaged = np.zeros(contact.contact_s.size)  # contact force after the scheme's averages
+        self._averaged = np.zeros(contact.nodes.size)  # contact force after the scheme's averages
         self._rows: list[tuple[Any, ...]] = []  # time, q, v, a, contact force, that along x, active; the first is old
         self._pending: list[int] = []  # rows that are saved
         self._largest: dict[str, Array] = {}  # see _keep_largest
@@ -143,17 +137,19 @@ class Recorder:
         if self.scaling.impact.supported:
             total = after["law_impulse"]
         y, slope = q[:, beam.vertical] - shape.wall_y, beam.slope(q) - shape.wall_slope
-        moments = beam.bending_moments(q) + self.unbent
+        left, right = sides(beam.bending_moments(q) + self.unbent)
         now = {"time": time, "y": y, "velocity": v[:, beam.vertical], "slope": slope}
         now |= {"total_impulse": total, "in_contact": active}
         if beam.scaling.shear_length:
-            now |= {"angular_velocity": v[:, beam.rotation], "bending_moment": nodal_means(moments)}
+            mean = left + right
+            mean[:, 1:-1] /= 2.0
+            now |= {"angular_velocity": v[:, beam.rotation], "bending_moment": mean}
         for name, values in (after | now).items():
             self.record[name] += [values[k].copy() for k in saved]
         self.record["kinetic_energy"] += beam.kinetic_energy(v[saved]).tolist()
         self.record["strain_energy"] += beam.strain_energy(q[saved]).tolist()
         self.record["stretch_energy"] += beam.stretch_energy(q[saved]).tolist()
-        largest = nodal_largest(moments)
+        largest = np.maximum(np.abs(left), np.abs(right))
         middle, where = largest[:, np.argmin(np.abs(shape.s))], shape.place[largest.argmax(axis=1)]
         self._keep_largest("moments", largest.max(axis=1), where, middle, anew=True)
         self.sums |= {name: values[-1] for name, values in after.items()}
@@ -280,7 +276,7 @@ class Recorder:
             symmetry="half" if self.copies == 2.0 else "full",
             time=saved["time"] * s.end_time,
             x=x,
-            contact_x=np.interp(self.contact.contact_s[front], shape.s, shape.place) * s.length,
+            contact_x=x[self.contact.nodes[front]],
             fields={name: (dims, values) for dims, group in groups for name, values in group.items()},
             **about,
         )

@@ -88,9 +88,8 @@ def _of_front(places: Array, scaling: Scaling) -> list[str]:
 
 
 def _of_depth(run: Recorder) -> Iterator[str]:
-    record, shape = run.record, run.beam.shape
+    record, shape, near = run.record, run.beam.shape, run.contact.nodes
     untouchable = np.ones(shape.s.size, bool)
-    near = np.searchsorted(shape.s, run.contact.contact_s)
     untouchable[max(0, near.min() - 1) : near.max() + 2] = False
     free = shape.y + record["time"][-1] * shape.velocity_y - shape.wall_y  # what enters so is let through
     if (record["y"][-1][untouchable & (free <= 0.0)] > 0.0).any():

@@ -107,9 +107,9 @@ class HeldStrip:
 class ContactRun(ABC):
     """A contact at work in one system.
 
-    nodes : of the beam, those that are contact points; contact_s : their arc lengths; coordinates : their y in the
-        system's vectors; wall_y : the wall there; signs : +1 on the wall, −1 on an opposite one; along : forces on the
-        beam along x with the last ``forces``. Each (contacts,).
+    nodes : of the beam, those that are contact points; coordinates : their y in the system's vectors; wall_y : the wall
+        there; signs : +1 on the wall, −1 on an opposite one; along : forces on the beam along x with the last
+        ``forces``. Each (contacts,).
     """
 
     iterated = True  # Exudyn finds the contact state by repeating steps
@@ -123,8 +123,8 @@ class ContactRun(ABC):
 
     def __init__(self, beam: Beam, nodes: Indices, wall_y: Array, signs: Array | None = None) -> None:
         self.beam, self.nodes, self.wall_y = beam, nodes, wall_y
-        self.contact_s, self.coordinates = beam.shape.s[nodes], beam.vertical[nodes]
-        self.signs, self.along = np.ones(nodes.size) if signs is None else signs, np.zeros(nodes.size)
+        self.coordinates, self.along = beam.vertical[nodes], np.zeros(nodes.size)
+        self.signs = np.ones(nodes.size) if signs is None else signs
         self.connectors: list[Any] = []  # Exudyn's object numbers
 
     def depth(self, q: Array) -> Array:

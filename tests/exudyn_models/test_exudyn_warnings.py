@@ -32,7 +32,7 @@ def stated(*, impact=IMPACT, places=PLACES, given=True, half_length=40.0, lost=0
         layout=SimpleNamespace(places=places, half_length=half_length, scaling=scaling),
         run=SimpleNamespace(
             record=record, scaling=scaling, deepest=parts["deepest"], sums={"held_impulse": parts["held"]}, total=-2.0,
-            beam=SimpleNamespace(shape=shape), contact=SimpleNamespace(contact_s=places[:80]),
+            beam=SimpleNamespace(shape=shape), contact=SimpleNamespace(nodes=np.arange(80)),
         ),
     )  # fmt: skip
     books = history_of(
