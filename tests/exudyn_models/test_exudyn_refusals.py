@@ -107,7 +107,6 @@ def test_what_has_no_effect_or_cannot_be_modelled_is_refused_by_name(made, said)
         (NewtonSolver(absolute_tolerance=1e-18, relative_tolerance=1e-18, iterations=1), "; try"),
         (NewtonSolver(contact_iterations=1), "settled.*contact_iterations"),
     ],
-    ids=["Newton", "contact"],
 )
 def test_a_step_that_fails_carries_time_advice_and_partial_history(solver, advice, capfd):
     with pytest.raises(SimulationError, match=advice) as failure:
