@@ -17,7 +17,7 @@ from hermite_fe.stepping import Problem, State
 MAXIMUM_STEPS = 20_000_000
 MOST_WORK = 1e11  # steps x nodes: one to four hours
 Reached = tuple[int, int]
-"""A status of :mod:`hermite_fe.active_set` and the step reached: SOLVED and the last one asked for when all went well."""
+"""A status of :mod:`hermite_fe.active_set` and the step reached: SOLVED and the last one asked for if all went well."""
 
 
 @dataclass(frozen=True)
