@@ -16,16 +16,8 @@ from report_fixtures import KEPT, METHODS, impacts, lost, pipe, row, rows, studi
 
 from bent_beam.measure.numbers import MISSING
 from bent_beam_programs.report import page
+from bent_beam_programs.report import rows as tables
 from bent_beam_programs.report.impacts import FRAMES, SHOWN, acceleration_rows, energies, theory_of
-from bent_beam_programs.report.rows import (
-    PATHS,
-    TableRow,
-    first_order_rows,
-    headline,
-    leading_rows,
-    report_questions,
-    summary,
-)
 from bent_beam_programs.report.studies import stored_numbers, stored_studies
 from bent_beam_programs.report.whole import TIMES
 from bent_beam_programs.report.work import stored_measurements
@@ -57,8 +49,8 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> SimpleNamespace:
         patch.setattr(page, "show_all", lambda *_, **__: (list(impacts()), [nasty]))
         patch.setattr(page, "pipe_prediction", lambda store: pipe())
         patch.setattr(page, "stored_studies", lambda: stored)
-        methods = methods_of(PATHS)
-        asked, store = report_questions(methods, (0.5, 1.0)), RunStore(None)
+        methods = methods_of(tables.PATHS)
+        asked, store = tables.report_questions(methods, (0.5, 1.0)), RunStore(None)
         found = page.write_report(folder, methods, asked, store=store, progress=lambda *of: seen.append(of))
     file = folder / "index.html"
     text = file.read_text()
@@ -89,7 +81,7 @@ def test_page_is_at_most_two_megabytes_refers_to_nothing_outside_and_its_links_l
 def test_page_shows_every_row_the_failure_and_what_is_stored_and_strings_from_files_are_escaped(written, text):
     assert written.nasty not in written.text and written.text.count("<script") == 3  # the page's own
     text = re.sub(r"[ \n]+", " ", text)
-    for r in [*leading_rows(rows()), *first_order_rows(rows())]:
+    for r in [*tables.leading_rows(rows()), *tables.first_order_rows(rows())]:
         for c in r.cells:
             assert c.value_text in text and c.error_text in text
     assert f"Exudyn0.3(1, 0, 0, 0){written.nasty}" in text
@@ -138,7 +130,7 @@ def test_questions_ask_every_method_the_same(written: Any) -> None:
 
 @pytest.mark.parametrize(("off", "grade"), [(2e-4, "good"), (8e-4, "fair"), (2e-3, "poor"), (2e-2, "bad")])
 def test_grade_is_error_against_tolerance(off: float, grade: str) -> None:
-    cells = TableRow(row("hermite", 0.25, None, off)).cells
+    cells = tables.TableRow(row("hermite", 0.25, None, off)).cells
     assert [c.grade for c in cells] == [grade, grade]
     assert [c.error for c in cells] == pytest.approx([off, -off])
     assert cells[0].error_text.startswith("+") and cells[1].error_text.startswith("−")
@@ -146,13 +138,13 @@ def test_grade_is_error_against_tolerance(off: float, grade: str) -> None:
 
 def test_a_missing_number_leaves_its_columns_in_place() -> None:
     unseen = replace(row("hermite", 0.9, (4.0, 0.0, 0.0), 1e-3), lambda1=MISSING)
-    lambda1, r1 = TableRow(unseen).columns
+    lambda1, r1 = tables.TableRow(unseen).columns
     assert lambda1 is None and r1 is not None and r1.theory_text == f"{unseen.r1.theory:.6g}"
 
 
 def test_summary_and_headline_come_from_the_rows() -> None:
-    leading, first = leading_rows(rows()), first_order_rows(rows())
-    found = {(r["order"], r["label"]): r for r in summary(leading, first)}
+    leading, first = tables.leading_rows(rows()), tables.first_order_rows(rows())
+    found = {(r["order"], r["label"]): r for r in tables.summary(leading, first)}
     thin, thick = "leading order, κ/ν = 1/1600", "leading order, κ/ν = 1/20 to 0.5"
     exudyn, hermite = found["first order", "Exudyn"], found["first order", "Hermite"]
     assert [exudyn[key] for key in ("rows", "numbers", "within", "covered")] == [1, 2, 0, 2]
@@ -161,7 +153,7 @@ def test_summary_and_headline_come_from_the_rows() -> None:
     exudyn = found[thick, "Exudyn"]
     assert (exudyn["rows"], exudyn["seconds"]) == (3, 5.0)  # the coarse row is not among them
     assert found[thin, "Exudyn"]["rows"] == 1
-    assert "first order Hermite 20 %, Exudyn 2.5 %" in headline(leading, first, 0)
+    assert "first order Hermite 20 %, Exudyn 2.5 %" in tables.headline(leading, first, 0)
 
 
 def shown(name: str, label: str) -> dict[str, Any]:
