@@ -17,21 +17,11 @@ import numpy as np
 
 from bent_beam.checks import shortened
 from bent_beam.errors import nearest
-from bent_beam_programs.open_benchmark.result import (
-    ARRAYS,
-    MOST_INSTANTS,
-    SERIES,
-    TEXTS,
-    Array,
-    Result,
-    ResultError,
-    result_from_fields,
-)
+from bent_beam_programs.open_benchmark import result as results
+from bent_beam_programs.open_benchmark.result import Array, Result, ResultError, result_from_fields
 
 __all__ = ["load_result"]
 
-COLUMNS = ("tau", *SERIES)
-BESIDE = (*TEXTS, *ARRAYS, "events")  # names allowed in the JSON file beside a table
 NUMBER = re.compile(r"\s*[-+]?(?:(?:\d+\.?\d*|\.\d+)(?:[ed][-+]?\d+)?|nan|inf(?:inity)?)\s*", re.A | re.I)
 MOST_BYTES = 200_000_000
 MOST_JSON = 10_000_000  # bytes: five million empty lists, the worst of that size, take half a gigabyte of memory
@@ -101,7 +91,7 @@ def _npz(source: Path) -> Result:
         if total > 2 * MOST_BYTES:
             raise ResultError(f"would take {total:.3g} bytes unpacked, {2 * MOST_BYTES} are the most")
         with np.load(source, allow_pickle=False) as stored:
-            _check_names(stored.files, (*COLUMNS, *BESIDE), "field")
+            _check_names(stored.files, (*results.COLUMNS, *results.BESIDE), "field")
             for name in stored.files:
                 where = f"{name} cannot be read"
                 found[name] = stored[name]
@@ -137,7 +127,7 @@ def _table(source: Path) -> Result:
         raise ResultError(f"{about.name} is not JSON: {_one_line(error)}") from None
     if not isinstance(record, dict):
         raise ResultError(f"{about.name} must hold one JSON object")
-    _check_names(record, BESIDE, "field", f"{about.name}: ")
+    _check_names(record, results.BESIDE, "field", f"{about.name}: ")
     if table.is_file():
         record |= _columns(table)
     elif record.get("outcome") == "completed":
@@ -153,14 +143,14 @@ def _columns(table: Path) -> dict[str, Array]:
         with table.open(encoding="utf-8-sig", newline="") as stream:
             rows = csv.reader(_lines(stream))
             head = [name.strip() for name in next(rows, [])]
-            _check_names(head, COLUMNS, "column", f"{table.name}: ")
+            _check_names(head, results.COLUMNS, "column", f"{table.name}: ")
             if len(set(head)) != len(head):
                 raise ResultError(f"{table.name}: a column stands twice in the first line ({', '.join(head)})")
             for line, row in enumerate(rows, start=2):
                 if row:
                     values.append(_values(row, head, f"{table.name}, line {line}"))
-                if len(values) > MOST_INSTANTS:
-                    raise ResultError(f"{table.name}: more than {MOST_INSTANTS} instants")
+                if len(values) > results.MOST_INSTANTS:
+                    raise ResultError(f"{table.name}: more than {results.MOST_INSTANTS} instants")
     except UnicodeDecodeError as error:
         raise ResultError(f"{table.name} is not UTF-8 text: {_one_line(error)}") from None
     except csv.Error as error:

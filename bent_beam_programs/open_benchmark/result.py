@@ -26,8 +26,8 @@ OUTCOMES = (
 )  # fmt: skip
 SERIES = ("J", "Jm", "J_minus", "x_contact", "E_kin", "E_el", "E_damp")
 SNAPSHOTS = ("x", "snap_tau", "snap_gap")
-ARRAYS = (*SNAPSHOTS, "snap_v", "node_x", "node_impulse")
-TEXTS = ("outcome", "problem", "metadata")
+COLUMNS = ("tau", *SERIES)  # of a table
+BESIDE = ("outcome", "problem", "metadata", *SNAPSHOTS, "snap_v", "node_x", "node_impulse", "events")  # beside it
 MOST_INSTANTS = 200_000
 MOST_SNAPSHOTS = 2_000
 MOST_POINTS = 50_000
