@@ -156,10 +156,6 @@ def _of_numbers(found: Score) -> list[Symptom]:
     return shown
 
 
-# Causes are named only where the first symptom has one cause alone.
-# A wall on springs pushes where it is penetrated, and by as much. A thin first front throws the zone off the wall as a
-# whole. Sums are wrong where momentum alone is violated. Everything else has several causes, and none is named.
-
 SUSPECT = 0.2  # κ/ν below which the first instants may throw the zone off the wall
 EVEN = 0.08  # unevenness of a zone that was laid down point after point, without rebounds
 STILL = 0.05  # far end's departure from the free motion / V₀τ; half of what is a symptom

@@ -155,9 +155,7 @@ items(__name__, compare, (
 ))  # fmt: skip
 
 
-# discrete contact
-
-CURVATURE, DURATION, ELEMENT = 25.0, 0.01, 5e-2
+CURVATURE, DURATION, ELEMENT = 25.0, 0.01, 5e-2  # of discrete contact
 STEP, END = 2.5e-8, 2.5e-5  # s
 LATE = 1.6e-3  # s, end of the run with middles
 MIDDLE = CURVATURE * ELEMENT**2 / 8.0 / 20.0  # s, until the middle of an element reaches the wall

@@ -125,8 +125,6 @@ def cost(sheet: Sheet) -> None:
     sheet.table([*columns, "steps", "lift/(V₀t)", "r₀ error (%)"], rows)
 
 
-# Element length, growth, and the "square" mesh (3.3.2).
-
 FLAT = 1.0 / 80.0
 ELEMENTS = {1.0: 20000, 1.05: 302, 1.1: 192, 1.25: 120, 1.5: 92}  # e: count, Table 3.2
 LENGTHS = Series(
