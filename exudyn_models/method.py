@@ -115,7 +115,9 @@ class ExudynModel(Part):
     def chosen_for(self, impact: Impact, end_time: float) -> Self:
         """A copy with mesh, element, steps and hold chosen for ``impact``: other impacts then run on the same ones."""
         chosen = self.chosen(impact, end_time, for_loads=True)
-        names = ("mesh", "element", "contact", "integrator")
+        names = ["mesh", "element", "integrator"]
+        if impact.wall_stiffness is None:  # a wall that gives way is a contact by itself
+            names.append("contact")
         return dataclasses.replace(self, **{name: getattr(chosen, name) for name in names}, refine=1.0)
 
     def refuses(self, impact: Impact) -> str | None:

@@ -21,10 +21,9 @@ from exudyn_models import CONTACTS, ELEMENTS, INTEGRATORS, ExudynModel, stepping
 from exudyn_models.contacts import Penalty, Rigid, SegmentFriction
 from exudyn_models.contacts.base import HeldStrip
 from exudyn_models.elements import ANCFCable, Beam
-from exudyn_models.geometry import LinearLimit, TrueGeometry
+from exudyn_models.geometry import LinearLimit, Scaling, TrueGeometry
 from exudyn_models.integrators import RK44, GeneralizedAlpha
 from exudyn_models.method import held_for
-from exudyn_models.recording import nodal_largest
 from exudyn_models.segments import growing_segments
 from theory import contact_parameters
 
@@ -209,6 +208,21 @@ def test_so_many_nodes_behind_the_front_are_held_until_waves_may_be_back():
     assert held == [[0, 1, 2, 3, 4], [3, 4], []]
 
 
+@pytest.mark.parametrize("wall", [{}, {"wall_stiffness": 1e4}])
+def test_what_is_chosen_for_an_impact_runs_it(wall):
+    impact = HALF.replace(**wall)
+    assert ExudynModel().chosen_for(impact, 0.1).refuses(impact) is None
+
+
+def test_the_bow_s_own_slope_far_from_the_contact_does_not_scale_deflections_down_and_what_a_load_bends_does():
+    """The bow is part of the linear beam's natural shape; only its slope over what moves counts."""
+    scales = {
+        name: Scaling(HALF.replace(**load), 0.1) for name, load in (("bare", {}), ("bent", {"curvature_rate": 0.5}))
+    }
+    near, far = ({name: LinearLimit().amplitude_of(s, reach) for name, s in scales.items()} for reach in (40.0, 400.0))
+    assert far["bare"] == near["bare"] and far["bent"] < 0.2 * near["bent"]
+
+
 def test_forces_and_loads_are_those_that_act_where_a_scheme_averages_both_and_a_wrong_one_shows(monkeypatch):
     """Of the load one per cent more than acts in Exudyn's system."""
     pressed, loads = Impact.dimensionless(0.5, epsilon_alpha=2.0), Beam.loads
@@ -218,10 +232,6 @@ def test_forces_and_loads_are_those_that_act_where_a_scheme_averages_both_and_a_
     amiss = balance_of(exudyn_models.simulate(pressed, **asked))
     assert abs(sound.points) < 1e-9 and abs(sound.law) < 1e-7 and not sound.warnings
     assert abs(amiss.law) > 1e-3 and any("do not agree" in warning for warning in amiss.warnings)
-
-
-def test_the_largest_moment_of_a_node_is_the_larger_of_its_two_sides():
-    assert nodal_largest(np.array([[[1.0, -5.0], [2.0, 3.0]]])).tolist() == [[1.0, 5.0, 3.0]]
 
 
 @pytest.mark.parametrize(
