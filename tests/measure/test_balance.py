@@ -87,6 +87,18 @@ def test_a_free_end_that_loses_its_rate_of_curvature_within_an_element_is_not_as
     assert balance_of(free).momentum is None and balance_of(free).warnings == []
     assert balance_of(HermiteFE(domain=6.0).simulate(long, end_time=0.1)).momentum < 5e-4  # ends that follow lose none
     assert 0.0 < balance_of(simulated(WHOLE.replace(curvature_rate=-0.5), 0.1)).momentum < 5e-4
+    for end, asked in ((0.16, False), (0.36, True)):  # √(ct) is 0.4 and 0.6, the last element 0.5 long
+        run = history_of(time := np.linspace(0.0, end, 11), [0.0, 0.5, 1.0], impact=WHOLE.replace(curvature_rate=-0.5),
+                         velocity=np.ones((11, 3)), total_impulse=0.1 * time)  # fmt: skip
+        assert (balance_of(run).momentum is not None) == asked
+
+
+@pytest.mark.parametrize("moves", [{"curvature_rate": 0.1}, {"rotation": 0.1}, {"left_end": "hinged"}])
+def test_the_initial_energy_is_that_of_one_velocity_where_the_beam_has_one(moves) -> None:
+    one = np.ones(3)
+    for impact in (WHOLE, WHOLE.replace(**moves)):
+        energy = balance_of(history_of(np.arange(3.0), np.arange(3.0) / 2.0, impact=impact, kinetic_energy=1.1 * one))
+        assert energy.initial_energy == (pytest.approx(0.1) if impact is WHOLE else None)
 
 
 def test_a_whole_beam_that_rocks_bears_its_load_over_its_length_and_keeps_its_spin() -> None:

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from histories import recorded
 
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
@@ -56,6 +57,10 @@ def test_of_hits_that_overlap_each_has_the_largest_moment_of_its_own_time() -> N
         within = (history.time > hit.begin) & (history.time <= max(hit.end, until))
         assert hit.moment == pytest.approx(history.moment[within].max(), rel=0.02)  # the last is cut at its middle
     assert found[0].moment < 0.7 * peak_moment(history).moment
+    time, wall = np.linspace(0.0, 4.0, 41), np.eye(5)  # pushed in front until 2 s, behind from 1 to 3 s, ever more bent
+    pushes = (np.outer(np.clip(time - begin, 0.0, 2.0), wall[0]) for begin in (0.0, 1.0))
+    rising = recorded(time, next(pushes), opposite_impulse=next(pushes), moment=time, impact=impact)
+    assert [hit.moment for hit in hits(rising)] == pytest.approx([2.0, 4.0])
 
 
 @slow

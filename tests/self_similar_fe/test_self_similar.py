@@ -9,7 +9,7 @@ from bent_beam import Impact, SimulationError
 from bent_beam.measure.estimators import SIDE, leading_order
 from bent_beam.measure.moments import first_front, moments
 from self_similar_fe import ExpandingMesh, SelfSimilarFE
-from self_similar_fe.run import simulate_expanding
+from self_similar_fe.run import Run, simulate_expanding
 from self_similar_fe.similarity import similarity
 from theory import contact_parameters
 
@@ -76,6 +76,13 @@ def test_energy_of_the_fast_part_is_the_work_of_the_wall(half):
     slope = history.array("slope", -1)
     bow = -np.gradient(history.array("gap", -1), history.positions(-1), edge_order=2)
     assert bow == pytest.approx(slope, abs=3e-4 * np.ptp(slope))
+
+
+def test_rates_of_slopes_are_slopes_of_rates():
+    run = Run(Impact.dimensionless(0.5), QUICK, 0.1, 20)
+    rates = run.full_velocity()
+    slopes = np.gradient(rates[0::2], run.state.zeta, edge_order=2)
+    assert rates[1::2] == pytest.approx(slopes, abs=0.015 * np.ptp(slopes))  # what the front's jump leaves
 
 
 def test_impulse_energies_and_front_grow_like_the_root_of_the_time_and_far_ahead_the_beam_flies_on(half):
