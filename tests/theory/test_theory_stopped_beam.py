@@ -151,6 +151,9 @@ def test_shear_and_damping_turn_one_point_s_series_over_without_a_jump() -> None
     for time in (0.1, 0.3, 2.0, 400.0, 600.0):  # the least damping is as good as none
         assert first_instants(3.0, solved, 0.2, time, 1e-9) == pytest.approx(first_instants(3.0, solved, 0.2, time))
     turn = early_until(3.0)
+    held, point = first_instants(3.0, solved, 0.2, 0.3 * turn, 1.0), StoppedPoint(0.2, 1.0)  # no zone as yet
+    assert held[1:] == (float(point.reaction(0.3 * turn)), float(point.impulse(0.3 * turn)))
+    assert held[0] < 0.5 * early_zone(3.0, 0.3 * turn)[0] and held[2] > 1.2 * early_zone(3.0, 0.3 * turn)[2]
     before, after = (first_instants(3.0, solved, 0.2, share * turn)[0] for share in (0.999, 1.001))
     assert after == pytest.approx(before, rel=0.03)  # the zone does not leap ahead where its own law takes over
 
