@@ -16,7 +16,7 @@ from bent_beam.meshes import ScaleFreeMesh, UniformMesh
 from bent_beam.method import simulate_to_separation
 from hermite_fe import HermiteFE, simulate
 from hermite_fe.beam import HermiteBeam
-from hermite_fe.constraints import ContactLaw, Rows, set_bounds
+from hermite_fe.constraints import ContactLaw, Rows, constraints_of, set_bounds, some_gave_way
 from hermite_fe.contacts import CONTACTS, AlternateContact, Contact, MeanContact, MiddleContact, NodeContact
 from hermite_fe.far_fields import GridViscosity
 from hermite_fe.integrators import Integrator, MasslessBoundary, MoreauJean, SignoriniPosition
@@ -97,6 +97,15 @@ def test_what_is_held_is_closed_and_fewer_than_hold_behind_the_front_of_its_side
         set_bounds(rows, law._replace(strength=strength), closed, t, 0.25, least)
         assert np.flatnonzero(np.isinf(least)).tolist() == held
         assert np.array_equal(least[np.isfinite(least)], np.where(closed, -0.5, 0.0)[np.isfinite(least)])
+
+
+def test_what_pulls_harder_than_its_strength_gives_way_and_is_unilateral_from_then_on() -> None:
+    """Not what pulls less, what is held, or the round-off of what is unilateral."""
+    rows = Rows(np.zeros((4, 1), int), np.ones((4, 1)), np.zeros(4), np.arange(4), np.ones(4))
+    conditions = constraints_of(rows)
+    conditions.p[:], conditions.least[:] = [-3.0, -1.0, -9.0, -1e-12], [-2.0, -2.0, -np.inf, 0.0]
+    assert some_gave_way(conditions) and conditions.least.tolist() == [0.0, -2.0, -np.inf, 0.0]
+    assert not some_gave_way(conditions)
 
 
 def test_no_hold_acts_once_waves_may_be_back() -> None:
