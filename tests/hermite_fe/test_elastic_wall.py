@@ -10,7 +10,7 @@ from bent_beam.measure.reduction import wall_peaks
 from bent_beam.measure.whole_impact import hits
 from bent_beam.meshes import UniformMesh
 from hermite_fe import HermiteFE
-from hermite_fe.elastic_wall import Springs, push, stored_energy
+from hermite_fe.elastic_wall import Springs, add_zeros, push, stored_energy
 from hermite_fe.integrators import Midpoint
 from theory.elastic_stop import SwungBeam
 
@@ -24,6 +24,17 @@ def test_the_largest_force_of_a_nearly_straight_beam_is_that_of_oscillators_side
     peaks = wall_peaks(COARSE.simulate(impact, end_time=2.6, save=9))
     assert peaks is not None and peaks.force * np.sqrt(0.005) == pytest.approx(exact, rel=2e-4)
     assert peaks.pressure == pytest.approx(pressure, rel=0.02)
+
+
+def test_an_element_is_in_the_wall_between_the_roots_of_its_cubic_wherever_they_are() -> None:
+    """All three in the first tenth, too."""
+    springs, random = Springs(1.0, 0.0, np.zeros(4), np.ones(1), np.zeros(1), 0, 1, -1), np.random.default_rng(5)
+    for roots in (*random.uniform(-0.2, 1.2, (50, 3)), *random.uniform(0.0, 0.1, (20, 3))):
+        cubic, found = np.poly1d(roots, r=True), np.zeros(3)
+        q = np.array([cubic(0.0), cubic.deriv()(0.0), cubic(1.0), cubic.deriv()(1.0)])
+        count = add_zeros(springs, q, 0, found, 0)
+        inside = roots[(roots > 0.0) & (roots < 1.0)]
+        assert np.sort(found[:count]) == pytest.approx(np.sort(inside), abs=1e-6)
 
 
 @pytest.mark.parametrize(("share", "damping"), [(0.0, 0.7), (0.8, 0.2)])
