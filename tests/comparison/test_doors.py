@@ -278,3 +278,13 @@ def test_a_number_is_written_in_the_unit_that_suits_its_size_or_with_a_power_of_
     small = {1e-3: "0.001", 9.99e-4: "9.99·10⁻⁴", -1.5e-4: "−1.5·10⁻⁴", 1e-6: "10⁻⁶", -1e-6: "−10⁻⁶"}
     shown = {0.0: "0", None: "–"} | large | small
     assert {value: readable(value) for value in shown} == shown
+
+
+def test_one_run_saved_at_other_times_and_further_has_the_same_largest_moment():
+    """Of a straight beam that bends to y_xx = t²: not 4, at t = 2, nor 0.9929², at a saved instant."""
+    x, impact = np.linspace(0.0, 1.0, 11), Impact.dimensionless(0.5).replace(natural_curvature=0.0)
+    times = np.linspace(0.0, 1.0, 101), np.linspace(0.0, 2.0, 142)
+    slopes = (np.outer(time**2, x) for time in times)
+    runs = [history_of(time, x, impact=impact, slope=s, gap=-0.5 * s * x) for time, s in zip(times, slopes)]
+    for pair in (runs, runs[::-1]):
+        assert compare_histories(*pair)["end"]["peak_moment"] == pytest.approx([1.0, 1.0], abs=1e-3)

@@ -1,5 +1,5 @@
 """A wall that gives way: springs that never pull, over partly covered elements, and a stop. Held ends stand in
-``test_hermite_beam.py``; plates, stops and landings of both paths in ``exudyn_models/test_exudyn_supports.py``."""
+``test_hermite_beam.py``; plates, stops and landings that both paths share in ``exudyn_models/test_exudyn_supports.py``."""
 
 import numpy as np
 import pytest
@@ -130,3 +130,13 @@ def test_a_plate_is_pressed_hardest_at_its_edge_whatever_the_elements() -> None:
     for name in ("peak_penetration", "peak_pressure"):
         coarse, fine = (run.array(name)[-1] for run in runs)
         assert coarse == pytest.approx(fine, rel=2e-3) and fine > 0.0
+
+
+@pytest.mark.parametrize(("place", "waves"), [(0.0, 2), (1.0, 1)])
+def test_shear_waves_take_their_part_of_the_first_force_on_a_stop_from_a_beam_without_damping(place, waves) -> None:
+    """F = c(V₀ − F/(2√(κ_sGA μ))), one wave where the stop is at an end: the mean force soon after the touch, too."""
+    impact = Impact(1.0, 1.0, 2.0, 0.0, 1.0, wall_stiffness=1.0, wall_damping=40.0, wall_from=place, wall_to=place)
+    impact, exact = impact.replace(shear_stiffness=400.0, rotary_inertia=5e-4), 40.0 / (1.0 + 40.0 / (20.0 * waves))
+    history = HermiteFE(mesh=UniformMesh(1.0 / 800)).simulate(impact, end_time=1e-3, save=2)
+    assert history.array("peak_force")[-1] == pytest.approx(exact, rel=1e-9)
+    assert history.array("total_impulse")[-1] / history.time[-1] == pytest.approx(exact, rel=0.04)
