@@ -1,5 +1,5 @@
 """A wall that gives way: springs that never pull, over partly covered elements, and a stop. Held ends stand in
-``test_hermite_beam.py``; plates, stops and landings that both paths share in ``exudyn_models/test_exudyn_supports.py``."""
+``test_hermite_beam.py``; plates, stops and landings of both paths in ``exudyn_models/test_exudyn_supports.py``."""
 
 import numpy as np
 import pytest
