@@ -225,7 +225,9 @@ class Bounce:
 
     def write(self, out: str | Path, document: dict[str, Any] | None = None) -> list[Path]:
         """``bounce.json``, ``bounce.png`` and the animation ``bounce.gif`` in ``out``; returns the files.
-        document : with what a command adds to :meth:`to_dict`."""
+
+        document : with what a command adds to :meth:`to_dict`.
+        """
         from comparison.figures.history import animate
 
         film = animate(self.history, folder(out) / "bounce.gif", self._shown_until)

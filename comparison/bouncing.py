@@ -185,7 +185,8 @@ def _may_return(made: Runs, restitution: Number) -> float:
 
 
 def _may_be_none(reading: Mapping[str, Any], restitution: Number) -> float:
-    """How much earlier the last contact may end, T*: without a last part that is no more than :data:`RETURNS` bars."""
+    """How much earlier the last contact may end, T*: without its last part, where that changes the velocity by less
+    than :data:`RETURNS` bars of the restitution."""
     contacts = reading["contacts"]
     graze = len(contacts) > 1 and reading["last_push"] <= RETURNS * (restitution.bar or 0.0)
     return float(contacts[-1][1] - contacts[-2][1]) if graze else 0.0
@@ -229,6 +230,7 @@ def _flights(impact: Impact, over: Sequence[Hit]) -> float:
 
 
 def followed_until(impact: Impact, over: Sequence[Hit]) -> float:
-    """Until when a beam is followed, s: ``LONGEST_OF_WALL`` T* and its flights, of which :data:`FLIGHTS` T* at most."""
+    """Until when a beam is followed after hits that are over, s: ``LONGEST_OF_WALL`` T* and its flights, of which
+    :data:`FLIGHTS` T* at most."""
     unit = impact.slow_time_scale
     return LONGEST_OF_WALL * unit + min(_flights(impact, over), FLIGHTS * unit)

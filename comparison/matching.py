@@ -71,7 +71,8 @@ def _moments(run: Run) -> Moments:
 def _run(
     store: RunStore, duration: float, clock: Clock | None, method: Method, impact: Impact, uniform: bool = False
 ) -> Run:
-    """A run to ``duration`` (t*), or what is kept of it, against the clock. Raises :class:`Refused`."""
+    """A run to ``duration`` (t*), from the store where it is there, against the clock. Raises :class:`Refused` for what
+    the method refuses, before its run or in it."""
     if reason := method.refuses(impact):
         raise Refused(str(reason))
 
@@ -110,7 +111,8 @@ class _Estimates:
 def _estimates(
     question: MatchQuestion, factor: float, run: Callable[..., Run], epsilon: float | None = None
 ) -> _Estimates:
-    """Run and estimate at ``factor`` times the own resolution. epsilon : the largest. Raises :class:`Refused`."""
+    """Run and estimate at ``factor`` times the method's own resolution; ``epsilon`` is the largest ε, ``None``: chosen.
+    Raises :class:`Refused` for what the method refuses."""
     asked, first, bare = question.method, question.first, question.bare
     method = refined(asked, factor)
     if method is None:

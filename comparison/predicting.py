@@ -234,10 +234,10 @@ def predict_case(
     if not whole:
         return answer
     try:
-        told_of_whole = bounce(case, method, store=store, progress=lambda done: told(1.0 - share * (1.0 - done)))
+        found_whole = bounce(case, method, store=store, progress=lambda done: told(1.0 - share * (1.0 - done)))
     except (ValueError, SimulationError) as error:
         return replace(answer, no_whole=in_keys(str(error)))
-    return replace(answer, whole=told_of_whole)
+    return replace(answer, whole=found_whole)
 
 
 def runs_to(
@@ -254,7 +254,8 @@ def numbers_at(runs: Runs | None, case: Case) -> dict[str, Number]:
 
 
 def _agreement(checked: Sequence[float], prediction: Prediction, runs: Runs, first: int) -> dict[str, float] | None:
-    """The longest interval between checked instants in which half length and impulse agree within bars and 2 %."""
+    """The longest interval between checked instants in which half length and impulse agree within bars and 2 %;
+    ``None`` where they agree at none."""
     agree = []
     for i, row in enumerate(prediction.times[first:]):
         found = instant_numbers(runs.part(lambda reading, i=i: reading["before"][i]))  # type: ignore[misc]

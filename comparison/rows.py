@@ -190,7 +190,8 @@ def questions(
 
 
 def with_theory(question: MatchQuestion, leading: Any, estimate: Any) -> dict[str, Any]:
-    """The numbers of a row beside the theory's. λ₁ is missing where a run does not show the zone of a flat bow."""
+    """The numbers of a row with the theory's beside them. λ₁ is missing where a run does not show the zone that a flat
+    bow has; a sharp one has none, and λ₁ = 0."""
     from theory import contact_parameters
 
     exact = contact_parameters(question.kappa_over_nu, **question.loads)

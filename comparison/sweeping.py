@@ -256,11 +256,13 @@ class SweepTable:
         told: dict[str, list[str]] = {}  # each sentence once, and of which rows it is
         for text, name in said:
             told.setdefault(text, []).append(name)
-        for text, (first, *others) in told.items():
-            which = f"{1 + len(others)} rows, the first at {first}" if others else first
-            every = others and 1 + len(others) == len(self.rows)
-            lines.append(f"{text} ({'all rows' if every else which})")
-        return "\n".join(lines)
+        return "\n".join([*lines, *(f"{text} ({self._which(names)})" for text, names in told.items())])
+
+    def _which(self, names: Sequence[str]) -> str:
+        """Rows in words."""
+        if 1 < len(names) == len(self.rows):
+            return "all rows"
+        return names[0] if len(names) == 1 else f"{len(names)} rows, the first at {names[0]}"
 
 
 def _are_range(ends: Sequence[Any]) -> bool:

@@ -36,7 +36,10 @@ def multiply(A: Array, x: Array, y: Array) -> None:
 
 
 def row_sums(A: Array) -> Array:
-    """Sums of A's rows over dofs at even and at odd distances, shape (2, n); sums at round-off are set to zero."""
+    """Sums of A's rows over dofs at even and at odd distances, shape (2, n); sums at round-off are set to zero.
+
+    Row 0 has no left neighbour; its odd sum is not used.
+    """
     n, both = A.shape[1], np.zeros((2, 2, A.shape[1]))
     for m in range(4):
         band = np.stack([A[m, : n - m], np.abs(A[m, : n - m])])

@@ -9,9 +9,11 @@ The reaction impulse of a mean gap is p_e = l ∫ r_e dt: the pair is conjugate,
 reaction is exact. Where a row closes ġ⁺ = −e ġ⁻ (thesis 3.2.4).
 
 **The hold.** Contact is unilateral unless its law has a strength (:class:`hermite_fe.constraints.ContactLaw`). Two
-options, off unless stated, keep closed constraints closed whatever they pull, for comparison and for first instants:
+options, off unless stated, keep closed constraints closed whatever they pull, for comparison and for the infinite
+beam's first instants only:
 
-- ``hold_until``: nothing that has closed opens before this time: a bilateral start.
+- ``hold_until``: nothing that has closed opens before this time: a bilateral start. With the long first step of
+  :mod:`hermite_fe.resolution` it is not needed.
 - ``hold``: a constraint that has closed is not released until the front is so many constraints further. Behind a moving
   front the exact reaction is zero, and noise of either sign there turns into pushes off the wall. Runs that measure
   what a pressing load changes take a ``hold`` by themselves.

@@ -186,7 +186,8 @@ def rows_at_walls(rows: ContactRows, impact: Impact, natural: Array, supports: t
     """``rows`` that stand before the wall, and not at an end that is held; if there is a wall behind the beam, each is
     followed by the same node's there. natural : (dofs,), the bow at the first touch.
 
-    Raises ``ValueError`` where none is left, as before a stop where contact is not at nodes, and for two walls then.
+    Raises ``ValueError`` where none is left, as before a stop where contact is not at nodes, and before two walls
+    where contact is not at nodes.
     """
     at_nodes, kept = rows.dofs.shape[1] == 1, impact.before_wall(rows.places)
     if at_nodes:

@@ -123,13 +123,17 @@ def stopped_beam(scheme: Scheme, refine: int) -> tuple[float, float]:
 RUNGS = {"ball": ball, "bar": bar, "string": string, "stopped-beam": stopped_beam}
 
 
+def in_phase(scheme: Scheme, phase: float) -> Scheme:
+    """The scheme with steps that many times as long."""
+    return lambda h: scheme(phase * h)
+
+
 def cell(scheme: Scheme, rung: Callable[[Scheme, int], tuple[float, float]]) -> str:
     """One integrator on one rung: error at the coarsest and the finest mesh, observed order, energy left at the finest,
     each ± half of what the step sizes change (of the order: what one of them changes); or why it cannot take it."""
     refinements = (1, 2, 4, 8)
-    in_phase = [lambda h, phase=phase: scheme(phase * h) for phase in PHASES]
     try:
-        found = [[rung(steps, n) for steps in in_phase] for n in refinements]
+        found = [[rung(in_phase(scheme, phase), n) for phase in PHASES] for n in refinements]
     except ValueError as error:
         return " ".join(str(error).split())
     errors, energies = np.moveaxis(np.array(found), 2, 0)  # (refinements, phases) each

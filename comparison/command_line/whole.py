@@ -60,13 +60,16 @@ def bounce(
         with progress(f"{method.path}: the whole impact", quiet) as bar:
             every.append(bouncing.bounce(one, method, **how, progress=bar.fraction))
     found, (_, method) = every[0], asked[0]
-    document, rows, fewer = found.to_dict(), list[dict[str, Any]](), list[str]()
+    document = found.to_dict()
+    rows: list[dict[str, Any]] = []
+    fewer: list[str] = []
     if len(paths) > 1:
         document["paths"] = [{"path": name, **one.to_dict()} for name, one in zip(paths, every)]
     if hits > 1:
         with progress("hits", quiet):
             followed, why = bouncing.followed_hits(found.impact, method, hits, first=found.history)
-        document["hits"] = rows = [{**vars(hit), "restitution": hit.restitution} for hit in followed]
+        rows = [{**vars(hit), "restitution": hit.restitution} for hit in followed]
+        document["hits"] = rows
         fewer = [f"{len(rows)} of {hits} hits: {why}"] if len(rows) < hits else []
         document["warnings"] += fewer
 

@@ -117,7 +117,7 @@ class ContactRun(ABC):
     imposes = False  # whether ``closed_by`` says which connectors are closed, in the place of the signs of gaps
     assumed: Array | None = None  # the states that the last step was solved with, where Exudyn finds them
     wall_springs: Array | None = None  # stiffness at the contact points of a wall that gives way, (contacts,)
-    held_until = 0.0  # when (of the end time) the last point is let go that may have been held; 0: none ever is
+    strip: HeldStrip | None = None  # of a contact that may hold captured nodes
     chosen: Mapping[str, float] = {}  # settings that were left open, as they were chosen
     round_off = 0.0  # force in Exudyn's connectors that means nothing: no residual can be made smaller
 
@@ -166,6 +166,11 @@ class ContactRun(ABC):
     def stiffness_and_damping(self) -> tuple[Array, Array]:
         """Stiffness and damping of the closed contact at each *beam node*, shape (nodes,): for the stable step."""
         raise InputError("exudyn.contact: this contact does not work with explicit integrators")
+
+    @property
+    def held_until(self) -> float:
+        """When (of the end time) the last contact point is let go that may have been held; 0: none ever is."""
+        return 0.0 if self.strip is None else self.strip.until
 
 
 @dataclass(frozen=True)

@@ -80,7 +80,7 @@ class PenaltyRun(ContactRun):
             wall_y = np.concatenate([wall_y, np.full(wall.nodes.size, wall.opposite)])
             signs = np.concatenate([signs, -signs])
         super().__init__(beam, nodes, wall_y, signs)
-        self.strip, self.held_until = strip, strip.until
+        self.strip: HeldStrip = strip
         self.stiffness, self.damping, self.explicit = stiffness, damping, wall.explicit
         self.held = np.zeros(nodes.size, bool)
         markers = [beam.marker(int(node), beam.vertical_coordinate) for node in nodes]

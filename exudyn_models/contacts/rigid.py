@@ -30,8 +30,7 @@ class _Run(ContactRun):
 
     def __init__(self, beam: Beam, wall: Wall, hold: int) -> None:
         super().__init__(beam, wall.nodes, beam.shape.wall_y[wall.nodes])
-        self.strip = HeldStrip(wall, hold)
-        self.held_until = self.strip.until
+        self.strip: HeldStrip = HeldStrip(wall, hold)
         self.active = np.zeros(wall.nodes.size, bool)
         self.back = np.zeros(wall.nodes.size)  # speed asked of each closed node
         for node in wall.nodes:

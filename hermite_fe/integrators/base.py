@@ -16,8 +16,7 @@ from hermite_fe.stepping import Problem, State
 
 MAXIMUM_STEPS = 20_000_000
 MOST_WORK = 1e11  # steps x nodes: one to four hours
-Reached = tuple[int, int]
-"""A status of :mod:`hermite_fe.active_set` and the step reached: SOLVED and the last one asked for if all went well."""
+Reached = tuple[int, int]  # what :meth:`Integrator.advance` returns
 
 
 @dataclass(frozen=True)
@@ -100,4 +99,5 @@ class Integrator(Part, ABC):
 
     @abstractmethod
     def advance(self, problem: Problem, state: State, memory: Any, times: Array, first: int, last: int) -> Reached:
-        """Take steps ``first`` … ``last`` − 1 between the instants ``times`` in place."""
+        """Take steps ``first`` … ``last`` − 1 between the instants ``times`` in place. Returns a status of
+        :mod:`hermite_fe.active_set` and the step reached: SOLVED and ``last`` when all went well."""

@@ -93,7 +93,7 @@ TO_CHOOSE = {
     "sheared": SHEARED.replace(curvature=0.7),
     "a soft wall": BEAM.replace(**SOFT),
     "a very soft wall": BEAM.replace(wall_stiffness=1e-3),
-    "hysteretic": RUNS["hysteretic"][0],
+    **{kind: beam for kind, (beam, _) in RUNS.items()},
 }
 
 
@@ -105,8 +105,9 @@ def test_elements_and_steps_that_are_chosen_change_with_their_units(kind, method
     agree(*map(method.for_whole_beam, impacts), OF_PARTS)
     for both in zip(*(method.cross_checks(impact).values() for impact in impacts), strict=True):
         agree(*both, OF_PARTS)
-    times = [separation_times(impact, save=20) for impact in impacts]
-    assert times[1] == pytest.approx(times[0] * EXACT["s"], rel=1e-12)
+    if not (given.supported or given.wall_in_part or given.opposite_wall):  # which no separation ends
+        times = [separation_times(impact, save=20) for impact in impacts]
+        assert times[1] == pytest.approx(times[0] * EXACT["s"], rel=1e-12)
     for end in (share * given.slow_time_scale for share in (1e-3, 0.3, 3.0)):
         pairs = tuple(zip(impacts, (end, end * EXACT["s"])))
         agree(*(method.chosen_for(*pair) for pair in pairs), OF_PARTS)

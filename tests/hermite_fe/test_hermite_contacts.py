@@ -63,7 +63,8 @@ def is_half_of(full: ImpactHistory, half: ImpactHistory, within: float, *more: s
 
 
 HALVES = [("signorini_position", QuarterContact()), ("moreau_jean", AdhesiveContact(pull=300.0)),
-          pytest.param("position_velocity_acceleration", MiddleContact(), marks=verify)]  # fmt: skip
+          pytest.param("position_velocity_acceleration", MiddleContact(), marks=verify),
+          pytest.param("signorini_position", MeanContact(), marks=verify)]  # fmt: skip
 
 
 @pytest.mark.parametrize(("name", "contact"), HALVES, ids=str)
@@ -77,7 +78,7 @@ def test_half_and_full_beam_agree(name: str, contact: Contact) -> None:
     assert (half.dataset.attrs["symmetry"], full.dataset.attrs["symmetry"]) == ("half", "full")
 
 
-@pytest.mark.parametrize("contact", [NodeContact(), MiddleContact()])
+@pytest.mark.parametrize("contact", [NodeContact(), MiddleContact(), AlternateContact()])
 def test_rows_of_a_whole_beam_are_counted_from_the_middle_to_either_end(contact: Contact) -> None:
     rows = contact.rows(HermiteBeam(np.linspace(-1.0, 1.0, 9), 1.0, 1.0), np.zeros(18), full=True)
     assert np.array_equal(rows.order < 0, rows.places < 0.0) and np.all(np.diff(rows.order) == 1)
