@@ -9,11 +9,12 @@ import pytest
 from histories import history_of
 
 from bent_beam import Impact, ImpactHistory
-from bent_beam.measure import estimators
-from bent_beam.measure.estimators import SIDE, first_order, leading_order
+from bent_beam.measure.estimators import first_order, leading_order
 from bent_beam.measure.moments import Moments, first_front, local_front, moments, one_side, unresolved_at_end
 from bent_beam.measure.numbers import FACTOR, Number
 from theory import contact_parameters
+
+SIDE = np.sqrt(2.0 / np.pi)  # F√τ of r₀ = 1
 
 
 @cache
@@ -58,15 +59,23 @@ def test_a_zone_thrown_off_the_wall_may_have_been_pushed_that_much_too_hard(lift
     """A reaction that fits, and whose companion is as far off: the lift alone tells that the front was not resolved."""
     tau = np.geomspace(0.01, 1.0, 100)
     zero = np.zeros(100)
-    reduced = Moments(tau, 2.0 * SIDE * np.sqrt(tau), SIDE * tau, zero, zero, np.full(100, lift))
+    reduced = Moments(tau, 4.0 * SIDE * np.sqrt(tau), SIDE * tau, zero, zero, np.full(100, lift))  # r₀ = 2, λ₀ = ½
     found = leading_order(reduced, companions=[reduced])
-    assert found.lift == lift
+    assert found.lift == lift and found.window == (tau[50], 1.0)
     assert found.r0.parts["lift"] == pytest.approx(min(lift / 0.1, 1.0) * lift * found.r0.value, rel=6e-3)
-    inside = estimators.INSIDE * min(lift / 0.1, 1.0) * lift
-    assert found.lambda0.parts["lift"] == pytest.approx(inside * found.lambda0.value)
+    assert found.lambda0.parts["lift"] == pytest.approx(0.5 * min(lift / 0.1, 1.0) * lift * found.lambda0.value)
     short = leading_order(dataclasses.replace(reduced, moment=0.05 * SIDE * tau)).lambda0
-    least = estimators.LEAST_LEADING * 0.1  # of 0.1 at least
-    assert short.known < 0.06 and short.parts["least"] == pytest.approx(least)
+    assert short.known < 0.06 and short.parts["least"] == pytest.approx(1e-5)  # 10⁻⁴ of 0.1 at least
+    others = [dataclasses.replace(reduced, impulse=more * reduced.impulse) for more in (1.01, 0.97)]
+    assert leading_order(reduced, companions=others).r0.parts["mesh_and_step"] == pytest.approx(FACTOR * 0.03 * 2.0)
+
+
+def test_eight_instants_with_contact_are_the_least():
+    tau = np.geomspace(0.2, 1.0, 8)
+    few = Moments(tau, 2.0 * SIDE * np.sqrt(tau), SIDE * tau, *np.zeros((3, 8)))
+    assert leading_order(few).r0.value == pytest.approx(1.0)
+    with pytest.raises(ValueError, match="at least 8 instants"):
+        leading_order(dataclasses.replace(few, impulse=few.impulse * (tau > 0.2)))
 
 
 def test_the_first_moment_is_that_of_where_the_pushes_were():
@@ -128,7 +137,9 @@ def test_first_order_is_recovered_with_and_without_uniform_reaction(first):
     assert found.lambda1.value == pytest.approx(exact.lambda1, abs=0.02 * max(abs(exact.lambda1), 1.0))
     assert found.uniform_reaction == pytest.approx(max(first[0] + first[1], 0.0), abs=0.02)
     assert found.r1.parts["least"] == pytest.approx(2e-3 * max(abs(found.r1.known), abs(found.lambda1.known)))
-    assert found.window == pytest.approx((0.1 / 8.0, 0.1), rel=0.03)
+    late = base.tau[base.tau >= 0.1 / 8.0]
+    assert found.window == (late[0], late[-1]) and found.epsilons == (0.05, 0.1)
+    assert found.r1.parts["leading_order"] == 0.0
     of_lambda0, of_r0 = abs(found.r1.known) * leading.lambda0.spread, abs(found.lambda1.known) * leading.r0.spread
     assert found.lambda1.parts["leading_order"] == pytest.approx((of_lambda0 + of_r0) / leading.r0.known)
     assert abs(found.lambda1.value - exact.lambda1) <= found.lambda1.bar + 0.02 * max(abs(exact.lambda1), 1.0)
@@ -182,6 +193,11 @@ def test_companions_that_differ_and_a_reaction_that_does_not_reach_the_load_wide
     wider = first_order(runs, base, leading, companions=[other, found])
     assert (wider.r1.value, wider.lambda1) == (found.r1.value, found.lambda1)
     assert wider.r1.bar == pytest.approx(found.r1.bar + FACTOR * 0.3)
+    uneven = [(e, dataclasses.replace(run, pressure=e * (1.5 + 0.3 * np.sin(1e4 * run.tau)))) for e, run in runs]
+    lacks = 2.5 * 0.3 / np.sqrt(2.0) * leading.lambda0.known / SIDE
+    assert first_order(uneven, base, leading).r1.parts["uniform_reaction"] == pytest.approx(lacks, rel=0.1)
+    with pytest.raises(ValueError, match="same times"):
+        first_order([(e, dataclasses.replace(run, tau=1.001 * run.tau)) for e, run in runs], base, leading)
     full, open_zone = (first_order(runs, base, leading, pressure=pressure) for pressure in (1.5, 2.0))
     assert open_zone.r1.value == full.r1.value
     assert open_zone.r1.bar > 0.5 and open_zone.lambda1.bar > 0.25 > 5.0 * full.lambda1.bar
@@ -195,14 +211,14 @@ def test_a_zone_that_should_lift_and_does_not_widens_the_error_bars():
     pushed = [(e, dataclasses.replace(run, pressure=run.pressure + 0.5 * e)) for e, run in lifted]  # as by springs
     rattling = dataclasses.replace(base, pressure=base.pressure + 0.05)  # by half a load, which is not there with it
     whole = contact_parameters(0.5).lambda0 / SIDE  # of the load
-    hits = estimators.MISSING_FIRST * estimators.HITS_FIRST * 0.5 * whole
+    hits = 2.5 * 3.0 * 0.5 * whole
     stuck = [(runs, base, -1.0, whole), (runs, base, -2.0, 2.0 * whole)]
     for some, at_rest, pressure, lacks in (*stuck, (lifted, base, -1.0, 0.0), (pushed, base, -1.0, hits),
                                            (lifted, rattling, -1.0, hits)):  # fmt: skip
         found = first_order(some, at_rest, leading, pressure=pressure)
         assert found.r1.parts["uniform_reaction"] == pytest.approx(lacks, rel=0.01, abs=0.01 * whole)
     thrown = dataclasses.replace(leading, lift=0.03)
-    for pressure, more in ((-1.0, 0.2), (1.0, 0.0)):
+    for pressure, more in ((-1.0, 0.2), (1.0, 0.0), (0.0, 0.0), (None, 0.0)):
         low, high = (first_order(lifted, base, one, pressure=pressure).r1.parts["lift"] for one in (leading, thrown))
         assert high - low == pytest.approx((2.0 * 0.3 * 0.03 + more) * abs(found.r1.known), rel=1e-3)
 
