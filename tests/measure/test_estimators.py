@@ -193,6 +193,8 @@ def test_companions_that_differ_and_a_reaction_that_does_not_reach_the_load_wide
     wider = first_order(runs, base, leading, companions=[other, found])
     assert (wider.r1.value, wider.lambda1) == (found.r1.value, found.lambda1)
     assert wider.r1.bar == pytest.approx(found.r1.bar + FACTOR * 0.3)
+    bare = first_order(runs, base, leading, pressure=0.0).r1.parts["uniform_reaction"]  # 1.5 that nothing presses
+    assert bare == pytest.approx(2.5 * 1.5 * leading.lambda0.known / SIDE, rel=0.02)
     uneven = [(e, dataclasses.replace(run, pressure=e * (1.5 + 0.3 * np.sin(1e4 * run.tau)))) for e, run in runs]
     lacks = 2.5 * 0.3 / np.sqrt(2.0) * leading.lambda0.known / SIDE
     assert first_order(uneven, base, leading).r1.parts["uniform_reaction"] == pytest.approx(lacks, rel=0.1)
@@ -214,7 +216,8 @@ def test_a_zone_that_should_lift_and_does_not_widens_the_error_bars():
     hits = 2.5 * 3.0 * 0.5 * whole
     stuck = [(runs, base, -1.0, whole), (runs, base, -2.0, 2.0 * whole)]
     for some, at_rest, pressure, lacks in (*stuck, (lifted, base, -1.0, 0.0), (pushed, base, -1.0, hits),
-                                           (lifted, rattling, -1.0, hits)):  # fmt: skip
+                                           (lifted, rattling, -1.0, hits), (pushed, rattling, -1.0, 0.0),
+                                           (runs, rattling, -1.0, hits + whole)):  # fmt: skip
         found = first_order(some, at_rest, leading, pressure=pressure)
         assert found.r1.parts["uniform_reaction"] == pytest.approx(lacks, rel=0.01, abs=0.01 * whole)
     thrown = dataclasses.replace(leading, lift=0.03)
