@@ -7,6 +7,6 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 CASES = ROOT / "cases"
 FUZZ = bool(os.environ.get("FUZZ"))
-if FUZZ:
-    os.environ.setdefault("FUZZ_SEED", str(random.SystemRandom().randrange(2**32)))
-SEED = os.environ.get("FUZZ_SEED", "5")
+if FUZZ and not os.environ.get("FUZZ_SEED"):
+    os.environ["FUZZ_SEED"] = str(random.SystemRandom().randrange(2**32))
+SEED = os.environ.get("FUZZ_SEED") or "5"
