@@ -106,7 +106,8 @@ class Bounce:
 
     @property
     def span(self) -> tuple[float, float]:
-        """In which largest values are sought, s: to one period of the lowest mode after the last contact."""
+        """What the largest moment, stress and force are the largest of, s: from the first touch to one period of the
+        lowest mode after the last contact."""
         return 0.0, self.outcome.until * self.impact.slow_time_scale
 
     @property

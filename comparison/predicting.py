@@ -198,7 +198,8 @@ def predict_case(
     """Theory beside simulation at ``times`` (s, each ≥ 0), and, with ``whole``, the whole impact.
 
     store : where runs are kept. progress : called with the finished fraction of the simulations.
-    Raises ``ValueError`` for what the theory does not cover, and :class:`bent_beam.SimulationError`.
+    Raises ``ValueError`` for what the theory does not cover, :class:`bent_beam.SimulationError` where a simulation
+    cannot finish.
     """
     impact, method = case.impact, None if theory_only else case.method(PATH)
     warnings = doubts(impact, case.section)

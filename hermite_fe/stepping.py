@@ -16,8 +16,9 @@ from hermite_fe.system import Bending, Branches, System
 
 WORK, IMPACT, ALGORITHMIC, VISCOUS, MATERIAL, ABSORBED, WALL = range(7)
 """Indices in ``State.energy``, J since the start: the work of the loads, and the losses to impacts, to the scheme's own
-damping, to viscosity at grid scale, to the material's damping, to an absorbing layer, to the dashpots of the wall. What
-they leave of the change of kinetic, strain and the wall's energy is the energy residual of a run."""
+damping, to viscosity at grid scale, to the material's damping, to an absorbing layer, to the dashpots of the wall. Each
+has its own formula; the difference between their sum and the change of kinetic, strain and the wall's energy is the
+energy residual of a run."""
 
 ENERGIES = ("work_of_loads", *LOSSES)
 LARGEST = ("largest_moment", "largest_moment_node", "largest_midspan_moment")

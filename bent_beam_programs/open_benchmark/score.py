@@ -156,6 +156,7 @@ def _of_numbers(found: Score) -> list[Symptom]:
     return shown
 
 
+# Causes are named only where the first symptom has one cause alone; everything else has several, and none is named.
 SUSPECT = 0.2  # κ/ν below which the first instants may throw the zone off the wall
 EVEN = 0.08  # unevenness of a zone that was laid down point after point, without rebounds
 STILL = 0.05  # far end's departure from the free motion / V₀τ; half of what is a symptom
