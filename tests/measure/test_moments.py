@@ -63,3 +63,12 @@ def test_the_moment_in_the_middle_is_that_of_the_element_there() -> None:
     impact = Impact(1.0, 1.0, 0.4, 0.2, 1.0, natural_curvature=0.0)
     found = peak_moment(history_of(time, x, impact=impact, symmetry="full", **bent))
     assert (found.moment, found.midspan) == (pytest.approx(6.0 * 0.15), pytest.approx(0.0, abs=1e-12))
+
+
+def test_a_largest_moment_is_looked_for_after_an_instant_and_within_the_record() -> None:
+    """It falls by one a second from 9: all of the second after an instant counts, and the last interval always."""
+    time = np.arange(6.0)
+    falls = {"largest_moment": 9.0 - time, "largest_midspan_moment": 9.0 - time, "largest_moment_place": 0.0 * time}
+    history = history_of(time, np.linspace(0.0, 1.0, 5), impact=Impact.whole_beam(2.0), **falls)
+    assert [peak_moment(history, since=k).moment for k in (0, 2, 4, 5)] == [8.0, 6.0, 4.0, 4.0]
+    assert peak_moment(history, since=2).time == 2.5
