@@ -227,9 +227,10 @@ def test_a_whole_beam_has_the_moments_of_its_half_the_uniform_reaction_too():
 @pytest.mark.parametrize(("first", "epsilon"), [((0.0, 0.0, 0.0), 0.0), ((1.0, 0.5, 0.0), 1.0)])
 def test_the_first_front_is_where_the_zone_ends_whatever_the_zone_bears(first, epsilon):
     history, exact = synthetic(0.5, first, epsilon), contact_parameters(0.5, *first)
-    for tau in history.time[[120, 170, -1]]:
+    for k, error in ((120, 1e-3), (170, 1e-3), (-1, 1e-2)):
+        tau = history.time[k]
         front = np.sqrt(tau) * (exact.lambda0 + epsilon * exact.lambda1 * tau)
-        assert first_front(history, tau)[0] == pytest.approx(front, rel=1e-2)
+        assert first_front(history, tau)[0] == pytest.approx(front, rel=error)
     assert first_front(history, tau)[1] == 0.0  # of the last instant nothing after it tells how it differs from √t
 
 

@@ -5,7 +5,7 @@ import pytest
 from histories import history_of
 
 from bent_beam import Impact
-from bent_beam.measure.reduction import peak_moment
+from bent_beam.measure.reduction import moments_around, peak_moment
 
 
 @pytest.mark.parametrize("with_slope", [True, False])
@@ -34,7 +34,7 @@ def test_the_moment_of_a_cubic_is_exact_and_the_peak_is_where_it_is_largest(with
 
 
 def test_moments_of_a_mesh_that_moves_stand_where_its_nodes_are_then():
-    time, x = np.array([0.0, 1.0, 4.0]), np.array([0.0, 0.3, 0.7, 1.2])
+    time, x = np.array([0.0, 1.0, 4.0]), np.array([0.0, 0.3, 0.65, 1.2])
     position = np.multiply.outer(np.sqrt(time) + 1.0, x)
     bent = {"gap": -0.3 * position**2, "slope": 0.6 * position}
     history = history_of(time, x, impact=Impact(2.5, 1.0, 4.0, 0.2, 1.0), position=position, **bent)
@@ -42,6 +42,9 @@ def test_moments_of_a_mesh_that_moves_stand_where_its_nodes_are_then():
     assert found == pytest.approx(2.5 * (0.6 + 0.2), rel=1e-12) and np.all(place[:, 1] == position[2, 1:])
     for k in (-1, np.int64(2)):
         assert np.array_equal(history.bending_moments(k), (found, place))
+    bent = {"gap": -0.1 * position**3, "slope": 0.3 * position**2}
+    peak = peak_moment(history_of(time, x, impact=history.impact, position=position, **bent))  # 2.1 lies beyond its end
+    assert peak[:4] == pytest.approx((2.5 * (0.6 * 1.95 + 0.2), 1.95, 4.0, 2.5 * 0.2), rel=1e-12)
 
 
 @pytest.mark.parametrize("nodes", [(-2.0, -0.3, 0.5, 2.0), (-2.0, -0.3, 0.0, 0.5, 2.0)])
@@ -72,3 +75,39 @@ def test_a_largest_moment_is_looked_for_after_an_instant_and_within_the_record()
     history = history_of(time, np.linspace(0.0, 1.0, 5), impact=Impact.whole_beam(2.0), **falls)
     assert [peak_moment(history, since=k).moment for k in (0, 2, 4, 5)] == [8.0, 6.0, 4.0, 4.0]
     assert peak_moment(history, since=2).time == 2.5
+    near, moments = moments_around(history, 3.0, 1.0)
+    assert near.tolist() == [2.0, 3.0, 4.0] and moments.tolist() == [7.0, 6.0, 5.0]
+    cubic = history_of(
+        time, np.linspace(0.0, 1.0, 5)
+    )  # of a path that tells instants alone, the first is no contact yet
+    assert moments_around(cubic, 1.0, 1.0)[0].tolist() == [1.0, 2.0]
+
+
+SHEARED = Impact(1.0, 1.0, 2.0, 0.5, 1.0, shear_stiffness=400.0, wall_curvature=-0.5)  # T* = 1 s; flat it has 1 N m
+
+
+@pytest.mark.parametrize(("k", "first", "last"), [(5000, 4989, 5010), (100, 94, 105)])
+@pytest.mark.parametrize(
+    ("push", "beside", "spread"),
+    [
+        (2.0, [0.0, 0.0, 0.0], 0.25 * 2.0 * 0.025),  # 2b(1 − 0.9)400 = 2
+        (8.0, [0.0, 0.0, 9.0], 0.25 * 8.0 * 0.05),  # it would be longer than an element; 3 elements away is not beside
+        (2.0, [1.0, 1.0, 0.0], 0.0125 + 0.5 * 2.0 * (0.1 + 0.2) - 0.25 * 6.0 * 6.0 / 80.0),
+    ],
+)
+def test_a_beam_that_shears_is_flat_on_either_side_of_the_point_that_it_touches(k, first, last, push, beside, spread):
+    """Its largest moment is 0.9 N m in one saved interval. The push counts that it has about it: 1 ms, or a twentieth
+    of the time, before and after, in whole intervals of 0.1 ms; more before and after it does not."""
+    time, x = 1e-4 * np.arange(6001), np.linspace(-1.0, 1.0, 21)
+    loads = np.zeros(21)
+    loads[[10, 11, 12, 13]] = loads[[10, 9, 8, 7]] = [push, *beside]
+    gains = 1e-3 * (np.abs(time - time[k]) > 2e-3)  # N s of others, far from it
+    gains[[first, last + 1]] = 1.0
+    gains[[first + 1, last]] = 0.5 * (last - first) * 1e-4
+    told = {"largest_moment": 0.9 * (np.arange(6001) == k), "largest_moment_place": 0.0 * time}
+    told["largest_midspan_moment"] = told["largest_moment"]
+    full = np.outer(gains.cumsum(), loads)
+    half = full[:, 10:] * np.where(np.arange(11), 1.0, 0.5)
+    for sides, impulse in (("full", full), ("half", half)):
+        run = history_of(time, x[-impulse.shape[1] :], impact=SHEARED, symmetry=sides, impulse=impulse, **told)
+        assert peak_moment(run).spread == pytest.approx(spread)
