@@ -116,7 +116,7 @@ def case_from_tables(tables: Mapping[str, Any]) -> Case:
         impact = impact_of(beam, arrival, wall, section)
     except ValueError as error:
         raise InputError(in_keys(str(error))) from None
-    _check_buckling(impact)
+    check_buckling(impact)
     _check_frequency(arrival.frequency, impact)
     return Case(
         title=tables.get("title", ""),
@@ -163,7 +163,7 @@ BUCKLING = {  # by both ends
 """Largest compression over π² EI/L², by ends (Euler; Timoshenko and Gere, Theory of Elastic Stability, 1961, ch. 2)."""
 
 
-def _check_buckling(impact: Impact) -> None:
+def check_buckling(impact: Impact) -> None:
     """Raise :class:`InputError` for a compression under which no bow is at rest."""
     share = BUCKLING[frozenset((impact.left_end, impact.right_end))]
     most = share * impact.buckling_load

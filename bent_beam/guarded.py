@@ -31,8 +31,13 @@ def try_first(file: Path) -> None:
             _child = subprocess.Popen(words, text=True, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
             atexit.register(_child.kill)
         assert _child.stdin is not None and _child.stdout is not None
-        print(json.dumps(str(file.absolute())), file=_child.stdin, flush=True)
-        answer = _child.stdout.readline()
+        try:
+            print(json.dumps(str(file.absolute())), file=_child.stdin, flush=True)
+            answer = _child.stdout.readline()
+        except BaseException:  # its answer would be taken for that on the next file
+            _child.kill()
+            _child.wait()
+            raise
         if not answer:
             ended = _child.wait()
             raise ValueError(f"to read it takes longer than {LIMIT} s" if ended == -ALARM else "to read it is a crash")

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from bent_beam.checks import non_negative
 from bent_beam.files import ENERGIES, UNITS, check_contents, check_variables, read_dataset, write_dataset
 from bent_beam.impact import Impact
 from bent_beam.loads import Array
@@ -111,9 +112,10 @@ class ImpactHistory:
 
     def until(self, time: float) -> ImpactHistory:
         """The same up to the saved instant nearest to ``time``, s."""
-        last = int(np.argmin(np.abs(self.time - time)))
+        last = int(np.argmin(np.abs(self.time - non_negative("time", time))))
         cut = {n: v._replace(values=v.values[: last + 1]) for n, v in self.variables.items() if "time" in v.dims}
-        return replace(self, variables={**self.variables, **cut})  # time is the first dimension
+        steps = round(self.steps * float(self.time[last] / (self.time[-1] or 1.0)))  # of steps that are alike
+        return replace(self, variables={**self.variables, **cut}, attrs={**self.attrs, "steps": steps})
 
     def described(self, title: str, section: Section | None) -> ImpactHistory:
         """The same that knows the title of its case, and its section, for stresses."""
@@ -201,6 +203,20 @@ class ImpactHistory:
         y = -self.array("gap", k) - 0.5 * impact.wall_curvature * (x - impact.first_touch) ** 2
         slope = self.array("slope", k) if "slope" in self else np.gradient(y, x, axis=-1, edge_order=2)
         return impact.bending_stiffness * (end_curvatures(x, y, slope) + impact.unbent_curvature), place
+
+    @property
+    def modelled_length(self) -> float:
+        """What is modelled of the beam at the first saved instant, m, both sides, along x."""
+        return 2.0 / self.sides * float(np.ptp(self.positions(0)))
+
+    @property
+    def is_whole(self) -> bool:
+        """Whether all of the beam is modelled; an arc is somewhat shorter along x."""
+        return self.modelled_length >= 0.9 * self.impact.length
+
+    def impulse_at(self, time: Any) -> Any:
+        """Impulse of the wall since the first touch, N s, at ``time``, s, linear between saved instants."""
+        return np.interp(time, np.append(0.0, self.time), np.append(0.0, self.array("total_impulse")))
 
     @property
     def force(self) -> Array:

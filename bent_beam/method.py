@@ -22,7 +22,7 @@ from typing import Any, ClassVar, NoReturn, Protocol, TypeVar, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
-from bent_beam.checks import shortened
+from bent_beam.checks import shortened, whole
 from bent_beam.errors import ANY_FAILURE, InputError, SimulationError, TimeLimitError, nearest, unknown_key
 from bent_beam.fields import declared, describe, part_or_auto
 from bent_beam.free_flight import is_over
@@ -68,6 +68,16 @@ class Method(Protocol):
         Raises :class:`bent_beam.InputError` for what it refuses, :class:`bent_beam.SimulationError` when it cannot
         finish; any other error is a failure too.
         """
+
+
+def checked_times(save: Any, end: float) -> NDArray[np.float64]:
+    """Times to save, s: finite, increasing, from 0 to ``end``; ``ValueError`` otherwise."""
+    times = np.asarray(save, float)
+    if times.ndim != 1 or times.size < 1 or not np.all(np.isfinite(times)):
+        raise InputError("save must be a whole number, or a list of finite times")
+    if np.any(np.diff(times) <= 0.0) or times[0] < 0.0 or times[-1] > end * (1.0 + 1e-9):
+        raise InputError(f"save must hold increasing times from 0 to the end time {float(end)!r}")
+    return times
 
 
 def chosen_for(method: M, impact: Impact, end_time: float) -> M:
@@ -160,7 +170,7 @@ def separation_times(impact: Impact, longest: float | None = None, save: int = 2
             f"opposite_wall {impact.opposite_wall!r}: between two walls no separation is the last; simulate to an end "
             "time (bentbeam simulate), which lists the hits"
         )
-    unit = impact.slow_time_scale
+    unit, save = impact.slow_time_scale, whole("save", save, 1)
     end = LONGEST * unit if longest is None else impact.checked_end_time(longest)
     even = np.linspace(0.0, end, max(8, round(save * end / unit)) + 1)[1:]
     on_wall = min(ON_WALL * time_on_wall(impact), LONGEST_OF_WALL * unit) if longest is None else 0.0

@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 
 from bent_beam import Case, Impact, ImpactHistory, InputError, load_case
-from bent_beam.cases import case_from_tables
-from bent_beam.checks import finite
+from bent_beam.cases import case_from_tables, check_buckling
+from bent_beam.checks import finite, whole
 from bent_beam.free_flight import LOWEST_PERIOD, may_return
 from bent_beam.hysteresis import converges, first_mode
 from bent_beam.measure.balance import balance_of
@@ -66,6 +66,7 @@ def case_of(beam: Beam) -> Case:
     if isinstance(beam, Case):
         return beam
     if isinstance(beam, Impact):
+        check_buckling(beam)
         return Case(title="", impact=beam, end_time=beam.checked_end_time(), mesh=None, tables={})
     return case_from_tables(beam) if isinstance(beam, Mapping) else load_case(beam)
 
@@ -102,6 +103,8 @@ def bounce(
                 f"{name} has no effect: only a beam whose damping is stated as 0, and whose wall is not soft, has an "
                 f"ensemble (got {value!r})"
             )
+    if runs is not None:
+        whole("runs", runs, 2)
     how: dict[str, Any] = {"store": store, "jobs": jobs}
     if not case.damping_stated and not (impact.damping or impact.hysteretic_loss):
         return _over_ratios(case, method, progress or (lambda _: None), how | {"save": save})

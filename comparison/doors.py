@@ -77,7 +77,7 @@ def match(
 
     first_order : (α, ψ, χ[, N]) each; none: the leading order. jobs : processes. fresh : stored runs are ignored.
     """
-    ratios = [kappa_over_nu] if isinstance(kappa_over_nu, (int, float)) else kappa_over_nu
+    ratios: Any = [kappa_over_nu] if np.ndim(kappa_over_nu) == 0 else kappa_over_nu  # type: ignore[arg-type]
     asked = questions([made(one) for one in methods or PATHS], ratios, first_order, refine)
     return match_all(asked, store=RunStore.usual(fresh), jobs=jobs)
 

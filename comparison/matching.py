@@ -22,7 +22,7 @@ from bent_beam.measure.numbers import MISSING, Number, number_of
 from bent_beam.measure.reduction import hold_of, pull_of, wall_peaks
 from bent_beam.method import Method, chosen_for, refined, simulated
 from comparison import rows
-from comparison.questions import ERROR_BARS
+from comparison.questions import ERROR_BARS, FEWEST, check_lengths
 from comparison.rows import MatchQuestion, MatchRow
 from comparison.runs import Run, kept
 from comparison.store import RunStore
@@ -134,12 +134,22 @@ def _estimates(
     return _Estimates([alone, base, *found], _moments(base), moved, largest.zone_pressure / epsilon)
 
 
+def _check(question: MatchQuestion) -> None:
+    """Raises :class:`Refused` for elements or steps of which no run with half as many tells the error."""
+    bare, method = question.bare, refined(question.method, question.refine) or question.method
+    try:
+        check_lengths(method, bare, question.duration * bare.time_scale / FEWEST, f"until {question.duration:g} t*")
+    except ValueError as error:
+        raise Refused(str(error)) from None
+
+
 def answer(question: MatchQuestion, store: RunStore, limit: float | None = None) -> MatchRow:
     """Simulate and estimate one row; companion runs at other resolutions say what the error bar is.
 
     limit : s, of the row. Raises :class:`Refused`, ``SimulationError``, ``TimeLimitError`` (:mod:`bent_beam.errors`).
     """
     run = partial(_run, store, question.duration, None if limit is None else Clock(limit))
+    _check(question)
     fine = _estimates(question, question.refine, run)
     others, lost = list[_Estimates](), list[str]()
     epsilon = fine.loaded[-1][0] if fine.loaded else None

@@ -29,7 +29,7 @@ from typing import Any
 import numpy as np
 
 from bent_beam import ImpactHistory, InputError
-from bent_beam.checks import one_of
+from bent_beam.checks import one_of, positive, whole
 from bent_beam.hysteresis import branches_of, converges, is_damped
 from bent_beam.impact import BEFORE_WAVES_RETURN, Impact
 from bent_beam.loads import beyond_first_order
@@ -45,7 +45,7 @@ RESOLVES = 0.05  # a whole beam's elements refined by RESOLVES/√(t/T*) are a t
 EARLIEST = 1e-5  # T*: before, those waves carry less than 0.1 ‰ of the impulse
 OF_SHORT, SHORT = 2.0, 0.05  # to SHORT, T*, a run has OF_SHORT times the elements of a whole impact; to later, fewer
 FINEST, SOON = 4.0, 0.025  # before SOON, T*, it has more, FINEST times at most, to resolve what the first instants left
-FEWEST = 4  # elements of a half beam
+FEWEST = 4  # elements of a half beam, and steps
 LONGEST_STEP = 0.05  # T*: twenty in a period of a whole beam's first mode, ten of a coarser companion
 INSTANTS, OF_UNIT = 200, 2000  # saved: up to the time asked, evenly in √t; of a whole impact, a T*
 ERROR_BARS = {"drift": (), "quick": (COARSER,), "thorough": (COARSER, FINER)}
@@ -72,6 +72,10 @@ class Question:
 
     def __post_init__(self) -> None:
         one_of("error_bars", self.error_bars, ERROR_BARS)
+        if self.until is not None:
+            positive("until", self.until)
+        if self.save is not None:
+            whole("save", self.save, 2)
         if self.error_bars == "thorough" and self.late and not converges(self.impact):
             raise InputError("error_bars: 'thorough' has no effect without damping: bars are those of an ensemble")
 
@@ -96,17 +100,11 @@ class Question:
     def _own(self) -> Method:
         """The method as this question takes it. Raises :class:`InputError` for elements or steps so long that a run
         with longer ones, from which the bar comes, is the same or means nothing."""
-        chosen, longest = self._chosen(self.method), LONGEST_STEP * self.impact.slow_time_scale
-        mesh, steps = getattr(chosen, "mesh", None), getattr(chosen, "integrator", None)
-        if self.late and mesh is not None and (count := mesh.nodes(self.impact.half_length).size - 1) < FEWEST:
-            raise InputError(
-                f"{chosen.path}.mesh has {count} elements in a half beam of {self.impact.half_length:.6g} m, and "
-                f"{FEWEST} are the fewest: the error bar comes from a run with half as many"
-            )
-        for name in ("time_step", "flight_step") if self.late else ():
-            if (value := getattr(steps, name, None) or 0.0) > longest * (1.0 + 1e-5):
-                key = f"{chosen.path}.integrator.{name}"
-                raise InputError(f"{key} must be at most {longest:.6g} s for the whole beam (got {value:.6g})")
+        chosen = self._chosen(self.method)
+        if self.late:
+            check_lengths(chosen, self.impact, LONGEST_STEP * self.impact.slow_time_scale, "for the whole beam")
+        elif self.until is not None:
+            check_lengths(chosen, self.impact, self.until / FEWEST, f"until {self.until:.6g} s")
         return chosen
 
     def _chosen(self, method: Method) -> Method:
@@ -193,3 +191,20 @@ class Question:
     def key(self, impact: Impact) -> dict[str, Any]:
         """What a run of it depends on next to its method, JSON-ready. A new field that changes runs belongs here."""
         return {"impact": asdict(impact), "until": self.until, "save": self.save}
+
+
+def check_lengths(method: Method, impact: Impact, longest: float, why: str) -> None:
+    """Raises :class:`InputError` for given elements or steps so long that a run with half as many is the same or means
+    nothing. longest : of the steps, s, in words ``why``."""
+    given: list[Any] = [getattr(method, name, None) for name in ("mesh", "integrator", "refine")]
+    mesh, steps, refine = *given[:2], given[2] or 1.0
+    if hasattr(mesh, "nodes") and (count := mesh.refined(refine).nodes(impact.half_length).size - 1) < FEWEST:
+        raise InputError(
+            f"{method.path}.mesh has {count} elements in a half beam of {impact.half_length:.6g} m, and "
+            f"{FEWEST} are the fewest: the error bar comes from a run with half as many"
+        )
+    for name in ("time_step", "flight_step"):
+        value = getattr(steps, name, None) or 0.0
+        if value > refine * longest * (1.0 + 1e-5):
+            key = f"{method.path}.integrator.{name}"
+            raise InputError(f"{key} must be at most {refine * longest:.6g} s {why} (got {value:.6g})")

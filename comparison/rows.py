@@ -180,6 +180,12 @@ def questions(
         return (0.0 - kappa * ((*first, 0.0)[3] or 0.0), *first[1:])  # 0, not −0
 
     kappas, asked = list(kappas), [*firsts] if firsts else [None]
+    for name, given in (("kappa_over_nu", kappas), ("refine", refines)):
+        if not given:
+            raise InputError(f"{name} must have a value (got none)")
+    for first in firsts:
+        if not isinstance(first, Sequence) or len(first) not in (3, 4):
+            raise InputError(f"first_order takes alpha, psi, chi and, if there is one, N each (got {shortened(first)})")
     for name, values in (("kappa_over_nu", kappas), ("first_order", asked), ("refine", refines)):
         if len({tuple(value) if isinstance(value, Sequence) else value for value in values}) < len(values):
             raise InputError(f"{name} has a value twice (got {shortened(list(values))})")

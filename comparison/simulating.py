@@ -51,7 +51,8 @@ class Simulated:
         largest = reading["whole"] if until is None else reading
         unit = scales(impact) if until is None else {"length": 1.0, "time": 1.0}
         several = impact.opposite_wall is not None or impact.off_centre  # between two walls, or of a beam that rocks
-        listed = hits(history) if several or impact.supported or impact.net_load > 0.0 else []
+        again = several or impact.supported or impact.net_load > 0.0
+        listed = hits(history) if again and history.is_whole else []
         return {
             "path": history.path,
             "model": impact.model,

@@ -18,7 +18,7 @@ import numpy as np
 from bent_beam.checks import MOST_INSTANTS, affordable, between, whole
 from bent_beam.errors import InputError
 from bent_beam.fields import describe
-from bent_beam.method import Progress, Save
+from bent_beam.method import Progress, Save, checked_times
 from exudyn_models.assembly import Chosen, Layout, assemble, settings_of, stable_step
 from exudyn_models.geometry import Array
 from exudyn_models.recording import Recorder
@@ -49,12 +49,12 @@ UNSETTLED = (
 
 def saved_times(save: Save, end: float) -> Array:
     """The times to save in units of ``end``, ascending, after 0. Raises ``ValueError``."""
-    if isinstance(save, (int, np.integer)):
-        between("save", whole("save", int(save), 1), 1, MOST_INSTANTS)
-        return np.asarray((np.arange(1, save + 1) / save) ** 2)
-    times = np.unique(np.asarray(save, float)) / end
-    if not (times.any() and (times >= 0.0).all() and (times <= 1.0 + 1e-9).all()):  # neither has a NaN
-        raise InputError(f"save must be a number of instants or times from 0 to the end time {end:.6g} s, not 0 alone")
+    if np.ndim(save) == 0:
+        count = int(between("save", whole("save", save, 1), 1, MOST_INSTANTS))  # type: ignore[arg-type]
+        return np.asarray((np.arange(1, count + 1) / count) ** 2)
+    times = checked_times(save, end) / end
+    if not times.any():
+        raise InputError("save must hold a time after 0")
     return np.minimum(times[times > 0.0], 1.0)
 
 

@@ -47,7 +47,7 @@ COUPLED = 40  # elements; the consistent mass matrix couples over some five: the
 class Contact(Part, ABC):
     """Base of the contact discretisations."""
 
-    where: ClassVar[str] = "contact"
+    where: ClassVar[str] = "hermite.contact"
 
     restitution: Annotated[float, Quantity("", "e", least=0.0, most=1.0)] = 0.0
     hold: Annotated[
@@ -62,7 +62,7 @@ class Contact(Part, ABC):
         if self.held and self.restitution > 0.0:
             name, value = next(iter(self.held.items()))
             raise InputError(
-                f"contact.{name} keeps rows closed that restitution {self.restitution!r} makes rebound: "
+                f"hermite.contact.{name} keeps rows closed that restitution {self.restitution!r} makes rebound: "
                 f"state one of them (got {value!r})"
             )
 
@@ -82,7 +82,7 @@ class Contact(Part, ABC):
 
     def checked_law(self, rows: ContactRows, hold_ends: float) -> ContactLaw:
         """:meth:`law`, which may be somebody else's; ``ValueError`` where it is none of these rows and this class."""
-        law, name = self.law(rows, hold_ends), f"contact: {type(self).__name__}"
+        law, name = self.law(rows, hold_ends), f"hermite.contact: {type(self).__name__}"
         if not isinstance(law, ContactLaw):
             raise InputError(f"{name}.law must return a ContactLaw (got {law!r})")
         if np.shape(law.strength) not in ((), (1,), (len(rows),)):

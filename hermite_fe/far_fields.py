@@ -44,7 +44,7 @@ class FarField(Part, ABC):
     theory of the infinite beam).
     """
 
-    where: ClassVar[str] = "far_field"
+    where: ClassVar[str] = "hermite.far_field"
 
     absorbs: ClassVar[bool] = False
     """Whether it takes waves that the mesh carries, and that the ends of a beam send back."""
@@ -84,8 +84,8 @@ class Sponge(GridViscosity):
 
     absorbs: ClassVar[bool] = True
 
-    strength: Annotated[float, Quantity("", "b", least=0.0)] = 0.03
-    width: Annotated[float, Quantity("", "width over the modelled half length", least=0.0, most=1.0)] = 0.5
+    strength: Annotated[float, Quantity("", "b", above=0.0)] = 0.03
+    width: Annotated[float, Quantity("", "width over the modelled half length", above=0.0, most=1.0)] = 0.5
 
     @property
     def damper(self) -> str:
@@ -93,10 +93,9 @@ class Sponge(GridViscosity):
 
     def dampings(self, beam: HermiteBeam, impact: Impact) -> Dampings:
         middles, half_length = 0.5 * (beam.nodes[:-1] + beam.nodes[1:]), float(beam.nodes[-1])
-        width, absorber = self.width * half_length, np.zeros(middles.size)
-        if width > 0.0:
-            depth = np.clip(1.0 - (half_length - np.abs(middles)) / width, 0.0, 1.0)
-            absorber = self.strength * width**2 * depth**3
+        width = self.width * half_length
+        depth = np.clip(1.0 - (half_length - np.abs(middles)) / width, 0.0, 1.0)
+        absorber = self.strength * width**2 * depth**3
         return (*super().dampings(beam, impact), ("absorbed", beam.stiffness(weight=absorber / impact.wave_constant)))
 
 

@@ -35,7 +35,7 @@ __all__ = ["MASSES", "ConsistentMass", "LumpedMass", "Mass"]
 class Mass(Part, ABC):
     """Base of the mass matrices."""
 
-    where: ClassVar[str] = "mass"
+    where: ClassVar[str] = "hermite.mass"
 
     @abstractmethod
     def element(self, beam: HermiteBeam) -> Array:

@@ -164,8 +164,8 @@ class HermiteFE(Composition):
         """Follow ``impact`` until the beam has left for good (:func:`bent_beam.method.simulate_to_separation`)."""
         if self.far_field is not None and self.far_field.absorbs:
             raise InputError(
-                f"far_field.kind: {self.far_field.damper} absorbs waves that the ends send back, and these belong to a "
-                f"whole impact: take viscosity (got {self.far_field!r})"
+                f"hermite.far_field.kind: {self.far_field.damper} absorbs waves that the ends send back, and these "
+                f"belong to a whole impact: take viscosity (got {self.far_field!r})"
             )
         times, separation = separation_times(impact, longest, save), Separation(impact)
 

@@ -195,13 +195,14 @@ def rows_at_walls(rows: ContactRows, impact: Impact, natural: Array, supports: t
     if not kept.any():
         begin, end = impact.wall_span
         raise InputError(
-            f"wall_from: no contact point stands before the wall from {begin!r} to {end!r} m; take contact.kind = node"
+            f"wall_from: no contact point stands before the wall from {begin!r} to {end!r} m; take "
+            "hermite.contact.kind = node"
         )
     rows = rows.at(kept)
     if impact.opposite_wall is None:
         return rows
     if not at_nodes:
-        raise InputError('opposite_wall takes contact.kind = "node" or "alternate"')
+        raise InputError('opposite_wall takes hermite.contact.kind = "node" or "alternate"')
     both = rows.at(np.repeat(np.arange(len(rows)), 2))
     both.factors[1::2] *= -1.0
     both.gap[1::2] = natural[rows.dofs[:, 0]] + impact.opposite_wall

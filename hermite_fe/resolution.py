@@ -136,7 +136,7 @@ def choose(impact: Impact, end_time: float, parts: Composition | None = None) ->
     )
     if parts.domain is not None and far_field.end != "following":
         raise InputError(
-            f'domain cuts the beam where it goes on: far_field.end must be "following" (got {far_field.end!r})'
+            f'domain cuts the beam where it goes on: hermite.far_field.end must be "following" (got {far_field.end!r})'
         )
     return Choice(mesh, snapped(fine, impact.places), integrator, contact, far_field, parts.mass or ConsistentMass())
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from bent_beam.checks import MOST_INSTANTS, affordable, whole
 from bent_beam.errors import InputError
-from bent_beam.method import Progress
+from bent_beam.method import Progress, checked_times
 from hermite_fe.active_set import CYCLING, NOT_FINITE, SINGULAR, SOLVED
 from hermite_fe.banded import product, stiff_product
 from hermite_fe.compiled import Array, Flags, Places, recompiling
@@ -71,25 +71,25 @@ class Stepper:
     ) -> None:
         if integrator.elastic != (system.springs.stiffness > 0.0):
             raise InputError(
-                "integrator.kind: midpoint is for a wall with a stiffness, the others for a rigid one; leave it out "
-                f"(got {type(integrator).__name__})"
+                "hermite.integrator.kind: midpoint is for a wall with a stiffness, the others for a rigid one; leave "
+                f"it out (got {type(integrator).__name__})"
             )
         if system.branches.shares.size and not integrator.hysteretic:
             raise InputError(
-                "integrator.kind: hysteretic_loss needs moreau_jean or signorini_position, before a wall with a "
-                f"stiffness midpoint; leave it out (got {type(integrator).__name__})"
+                "hermite.integrator.kind: hysteretic_loss needs moreau_jean or signorini_position, before a wall with "
+                f"a stiffness midpoint; leave it out (got {type(integrator).__name__})"
             )
         law, kind = law or ContactLaw(), type(integrator).__name__
         if law.restitution > 0.0 and not integrator.rebounds:
             raise InputError(f"{kind} has no impact law: restitution must be 0 (got {law.restitution!r})")
         if (law.hold or law.hold_until) and not integrator.holds:
-            raise InputError(f"integrator.kind: {kind} holds nothing: hold and hold_until must be 0")
+            raise InputError(f"hermite.integrator.kind: {kind} holds nothing: hold and hold_until must be 0")
         if not np.all(np.asarray(law.strength) >= 0.0):
             raise InputError(f"strength must be 0 or more, N (got {float(np.min(law.strength))!r})")
         if np.any(law.strength) and not integrator.sticks:
             raise InputError(
-                "integrator.kind: contact that may pull needs moreau_jean, or signorini_position with theta = 1 "
-                f"(got {kind})"
+                "hermite.integrator.kind: contact that may pull needs moreau_jean, or signorini_position with theta = "
+                f"1 (got {kind})"
             )
         if np.any(law.strength):
             for name in ("restitution", "hold", "hold_until"):
@@ -197,11 +197,7 @@ def saved_steps(instants: Array, save: int | Sequence[float] | Array) -> Places:
             raise InputError(f"save must be {MOST_INSTANTS} at most (got {count})")
         wanted = end * np.linspace(0.0, 1.0, count) ** 2
     else:
-        wanted = np.asarray(save, float)
-        if wanted.ndim != 1 or wanted.size < 1 or not np.all(np.isfinite(wanted)):
-            raise InputError("save must be a whole number of at least 2, or a list of finite times")
-        if np.any(np.diff(wanted) <= 0.0) or wanted[0] < 0.0 or wanted[-1] > end * (1.0 + 1e-9):
-            raise InputError(f"save must hold increasing times from 0 to the end time {float(end)!r}")
+        wanted = checked_times(save, end)
     middles = 0.5 * (instants[1:] + instants[:-1])
     return np.unique(np.concatenate([[0], np.searchsorted(middles, wanted)]))
 

@@ -39,7 +39,8 @@ def refusal(impact: Impact, contact: Contact | None) -> str | None:
         if impact.hysteretic_loss:
             return f"hysteretic_loss is not modelled with shear (got {impact.hysteretic_loss!r}){UNSHEARED}"
         if contact is not None and impact.wall_stiffness is None and not isinstance(contact, NodeContact):
-            return f'contact.kind must be "node" or "alternate" with shear (got {type(contact).__name__}){UNSHEARED}'
+            got = f"(got {type(contact).__name__}){UNSHEARED}"
+            return f'hermite.contact.kind must be "node" or "alternate" with shear {got}'
     return unmodelled(impact, MODELLED)
 
 
@@ -112,9 +113,9 @@ def simulate(
             run.failure,
             time=run.failure_time,
             step=run.steps,
-            advice="a smaller integrator.time_step or growth"
-            + (", more damping at grid scale (far_field.viscosity)" if choice.integrator.damped else "")
-            + ("" if impact.wall_stiffness else ', or integrator.kind = "moreau_jean"'),
+            advice="a smaller hermite.integrator.time_step or growth"
+            + (", more damping at grid scale (hermite.far_field.viscosity)" if choice.integrator.damped else "")
+            + ("" if impact.wall_stiffness else ', or hermite.integrator.kind = "moreau_jean"'),
             history=history,
         )
     return history

@@ -44,7 +44,7 @@ def resolution_warnings(impact: Impact, end_time: float, nodes: Array, integrato
             f"({element:.3g} m there); {ELEMENTS_PER_FRONT:g} are the least, "
             f"elements {short:.2g} times shorter"
         )
-    step = max(integrator.time_step or 0.0, (integrator.growth or 0.0) * end_time)
+    step = min(max(integrator.time_step or 0.0, (integrator.growth or 0.0) * end_time), end_time)
     travel, room = place * 0.5 * step / end_time, 0.5 * max(thickness, element)
     if travel > room:
         out.append(
@@ -74,7 +74,7 @@ def end_warnings(impact: Impact, end_time: float, nodes: Array, far_field: FarFi
     reached, thickness = np.array([front(impact, t) for t in emitted]).T
     arrival = emitted + np.maximum(2.0 * half - reached, 0.0) * thickness / (2.0 * impact.wave_constant)
     returning = arrival[(last < thickness) & (arrival < end_time) & (emitted > 0.01 * arrival)]
-    if returning.size:
+    if returning.size and impact.kappa_over_nu > 0.0:  # of a straight beam no front radiates
         out.append(
             f"{REFLECTED} (x = {half:.3g} m) and be back at the contact from about "
             f"t = {float(returning.min()):.2g} s on: from then on it is the impact of this beam, which no theory of an "

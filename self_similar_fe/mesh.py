@@ -21,7 +21,7 @@ MAXIMUM_NODES = 100_000
 class ExpandingMesh(Part):
     """Mesh x = ζ l* √(t/t*) of an infinite beam; lengths are in ζ unless said otherwise."""
 
-    where: ClassVar[str] = "mesh"
+    where: ClassVar[str] = "self_similar.mesh"
 
     front_resolution: Annotated[
         float,

@@ -9,7 +9,7 @@ from typing import Annotated, ClassVar
 from bent_beam.errors import InputError
 from bent_beam.fields import Part, Quantity
 from bent_beam.history import ImpactHistory
-from bent_beam.impact import Impact
+from bent_beam.impact import Impact, checked_impact
 from bent_beam.loads import unmodelled
 from bent_beam.method import Progress, Save
 from self_similar_fe.mesh import MESHES, ExpandingMesh
@@ -66,7 +66,7 @@ class SelfSimilarFE(Part):
     ) -> ImpactHistory:
         """Follow ``impact`` over the mesh's decades of time up to ``end_time``, s (by default 0.1 t*, but 0.01 T* at
         most)."""
-        end = impact.checked_end_time(end_time)
+        end = checked_impact(impact).checked_end_time(end_time)
         if reason := self.refuses(impact):
             raise InputError(reason)
         return simulate_expanding(impact, self._mesh_for(impact), end_time=end, save=save, progress=progress)

@@ -30,7 +30,7 @@ from bent_beam.errors import SimulationError
 from bent_beam.fields import describe
 from bent_beam.history import ImpactHistory, end_curvatures
 from bent_beam.impact import Impact
-from bent_beam.method import Progress, Save
+from bent_beam.method import Progress, Save, checked_times
 from self_similar_fe.mesh import Array, ExpandingMesh
 from self_similar_fe.similarity import leading_obstacle, similarity
 
@@ -54,7 +54,7 @@ def simulate_expanding(
     absorber took. Raises :class:`bent_beam.SimulationError` when the active set does not settle, the front leaves the
     fine mesh, or a number is no longer finite.
     """
-    count: Any = np.size(save) if np.ndim(save) else save
+    count: Any = checked_times(save, end_time).size if np.ndim(save) else save
     wanted = whole("the number of saved times" if np.ndim(save) else "save", count, 2)
     began = clock.perf_counter()
     try:

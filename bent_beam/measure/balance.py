@@ -168,9 +168,9 @@ def _missing_momentum(history: ImpactHistory) -> list[Array]:
     x, reached = history.positions(0), math.sqrt(impact.wave_constant * history.time[-1])
     if impact.curvature_rate and not _ends_follow(history) and x[-1] - x[-2] > reached:
         return []
-    load = impact.load_within(0.5 * _length(history))
+    load = impact.load_within(0.5 * history.modelled_length)
     if _ends_follow(history):
-        load -= impact.bending_stiffness * float(motion(0.0, by_x=4)) * _length(history)
+        load -= impact.bending_stiffness * float(motion(0.0, by_x=4)) * history.modelled_length
     velocity, given = history.array("velocity"), load * history.time
     slopes: list[Array | None] = [None]
     if "angular_velocity" in history:
@@ -196,7 +196,7 @@ def _second_moment(history: ImpactHistory, missing: Array) -> float | None:
     angles = history.array(turning) + impact.curvature * x
     turn = both * angles[:, -1] - (angles[:, 0] if history.sides == 2 else 0.0)
     turned, coarser = _integral_over(time, turn), _integral_over(time[::2], turn[::2])
-    force = impact.load_within(0.5 * _length(history), 2) * time
+    force = impact.load_within(0.5 * history.modelled_length, 2) * time
     force -= 2.0 * impact.bending_stiffness * (turned + impact.damping * (turn - turn[0]))
     impulse = history.array("impulse") - (history.array("opposite_impulse") if "opposite_impulse" in history else 0.0)
     pushed = both * impulse @ history.contact_positions(0) ** 2
@@ -258,12 +258,6 @@ def _ends_follow(history: ImpactHistory) -> bool:
     return ends != "free" or (isinstance(far, dict) and far.get("end") == "following")
 
 
-def _length(history: ImpactHistory) -> float:
-    """What is modelled of the beam, m, both sides."""
-    x = history.positions(0)
-    return 2.0 / history.sides * float(x[-1] - x[0])
-
-
 def _integral(x: Array, v: Array, slope: Array | None = None) -> Array:
     """∫v dx of piecewise cubics through node values, (…, nodes), and slopes (``None``: by differences)."""
     h = np.diff(x)
@@ -278,7 +272,7 @@ def _initial_energy(history: ImpactHistory) -> float | None:
     moving = impact.curvature_rate or impact.rotation or impact.supported  # velocities differ along the beam
     if moving or "position" in history or history.time[0] > 0.0 or _is_arc(history):
         return None
-    whole = 0.5 * impact.mass_per_length * _length(history) * impact.velocity**2
+    whole = 0.5 * impact.mass_per_length * history.modelled_length * impact.velocity**2
     return float(history.array("kinetic_energy")[0]) / whole - 1.0
 
 

@@ -66,7 +66,7 @@ def instant(history: ImpactHistory, time: float, *, first_spread: bool = False) 
     return Instant(
         half_contact_length=front,
         reaction=mean_reaction(history, time),
-        impulse=float(np.interp(time, history.time, history.array("total_impulse"))),
+        impulse=float(history.impulse_at(time)),
         peak_moment=peak.moment,
         peak_moment_place=peak.place,
         peak_moment_time=peak.time,
@@ -79,7 +79,7 @@ def instant(history: ImpactHistory, time: float, *, first_spread: bool = False) 
         peak_force_sharp=0.0 if wall is None else wall.sharp,
         peak_penetration=None if wall is None else wall.penetration,
         peak_pressure=None if wall is None or begin == end else wall.pressure,
-        impulse_around=tuple(np.interp(time * SHARES_AROUND, history.time, history.array("total_impulse")).tolist()),
+        impulse_around=tuple(history.impulse_at(time * SHARES_AROUND).tolist()),
         element=unsure(history, k, front, bent),
         lift=float(lift(history)[recent].max(initial=0.0)) if first_spread else 0.0,
     )

@@ -24,8 +24,7 @@ __all__ = [
 ZONE = 0.7  # of the front: what pushes within is the zone's uniform reaction
 AROUND = 0.1  # of the time, before and after
 JUMP, MOVES = 0.02, 4.0  # a rim jumps by more than this share of it, and this many times what one ~ √t moves by
-FEW = 3  # elements
-UNSURE = 0.5  # of what a front differs from one ~ √t by
+FEW, UNSURE = 3, 0.5  # elements; of what a front differs from one ~ √t by
 PUSH = 1e-9  # of the largest impulse of a contact point: less is round-off
 
 
@@ -78,8 +77,7 @@ def _pressure(time: Array, outwards: Iterable[tuple[Array, Array, Array]], front
     squares over the contact points within :data:`ZONE` of the front.
 
     At any time only a few of these points may carry the load, each for its neighbours. A sum over them, divided by the
-    length between the outermost, is off by what one of them carries; the slope hardly is.
-    """
+    length between the outermost, is off by what one of them carries; the slope hardly is."""
     found = np.zeros(time.size)
     for k, (places, upto, own) in enumerate(outwards, 1):
         inside = places < ZONE * front[k]
@@ -99,8 +97,7 @@ def moments(history: ImpactHistory, *, uniform: bool | None = None) -> Moments:
     total, moment = one_side(history)
     step, force, torque = (np.diff(values, prepend=values[0]) for values in (time, total, moment))
     carrying = np.maximum.accumulate(np.maximum(total, 0.0)) > 0.0
-    pressure = np.zeros(time.size)
-    front = np.where(carrying, _centroids(torque, force, pressure), 0.0)
+    front = np.where(carrying, _centroids(torque, force, 0.0 * time), 0.0)
     if uniform:
         kept = list(_outwards(history))
         for _ in range(6):  # the front and the part of the uniform reaction depend on each other: contracts fast
@@ -169,11 +166,9 @@ def local_front(time: Array, impulse: Array, moment: Array) -> Array:
 
 def first_front(history: ImpactHistory, time: float) -> tuple[float, float]:
     """Half contact length, m, at ``time``, s, in the first spread of a zone, and by how much it differs from that of a
-    front ~ √t, m; 0 without a push.
-
-    The centroids of what was pushed over the tenth of the time before, and the tenth after, lie where the front was at
-    the means of √t: between them it is a power of time, or straight in √t where the zone ends or begins. At the end
-    of a record it is carried on as √t."""
+    front ~ √t, m; 0 without a push. The centroids of what was pushed over the tenth of the time before, and the tenth
+    after, lie where the front was at the means of √t: between them it is a power of time, or straight in √t where the
+    zone ends or begins. At the end of a record it is carried on as √t."""
     instants = history.time
     k = int(np.argmin(np.abs(instants - time)))
     if k == 0:
@@ -247,8 +242,8 @@ def _rims(history: ImpactHistory, k: int) -> tuple[Array, Array]:
     first = max(int(np.searchsorted(history.time, begin, side="right")) - 1, 0)
     last = max(int(np.searchsorted(history.time, end)), k) + 1
     within = np.clip(history.time[first:last], begin, end)
-    pushed = np.diff(history.array("impulse", slice(first, last)), axis=0)
-    pushes = pushed > PUSH * float(np.abs(history.array("impulse", -1)).max(initial=0.0))
+    least = PUSH * float(np.abs(history.array("impulse", -1)).max(initial=0.0))
+    pushes = np.diff(history.array("impulse", slice(first, last)), axis=0) > least
     distances = np.abs(history.contact_positions(k) - history.impact.first_touch)
     outermost = np.where(pushes, distances, -1.0).max(axis=1)
     has_one = outermost >= 0.0
@@ -258,11 +253,10 @@ def _rims(history: ImpactHistory, k: int) -> tuple[Array, Array]:
 def mean_reaction(history: ImpactHistory, at: float) -> float | None:
     """Mean reaction over a tenth of the time ``at``, s, before and after, N: of a force that falls like 1/√t it is
     0.1 % too large. ``None`` at the first touch, and where the record ends before."""
-    time, total = history.time, history.array("total_impulse")
     span = at * np.array([1.0 - AROUND, 1.0 + AROUND])
-    if at <= 0.0 or span[1] > time[-1] * (1.0 + 1e-9):
+    if at <= 0.0 or span[1] > history.time[-1] * (1.0 + 1e-9):
         return None
-    return float(np.diff(np.interp(span, time, total))[0] / (span[1] - span[0]))
+    return float(np.diff(history.impulse_at(span))[0] / (span[1] - span[0]))
 
 
 def unsure(history: ImpactHistory, k: int, front: float | None, bent: float | None) -> float:
@@ -271,13 +265,13 @@ def unsure(history: ImpactHistory, k: int, front: float | None, bent: float | No
     if front is None:
         return 0.0
     if bent is None:
-        return max(element_at(history, k, front), jump_of_rim(history, k))
+        return max(element_beside(history, k, front), jump_of_rim(history, k))
     return max(UNSURE * bent, unresolved(history, k, front))
 
 
 def unresolved(history: ImpactHistory, k: int, front: float) -> float:
     """Length, m, of the elements of which a front at ``front`` m has passed less than :data:`FEW`; 0 of others."""
-    element = element_at(history, k, front)
+    element = element_beside(history, k, front)
     return element if front < FEW * element else 0.0
 
 
@@ -291,8 +285,16 @@ def unresolved_at_end(history: ImpactHistory, found: Moments) -> float:
     return (unresolved(history, -1, front) + soft) / impact.length_scale
 
 
-def element_at(history: ImpactHistory, k: int, place: float) -> float:
-    """Length of the element at ``place`` from the first touch, m: a half length is no surer."""
-    x = history.positions(k)
-    at = min(max(int(np.searchsorted(x, history.impact.first_touch + place)), 1), x.size - 1)
-    return float(x[at] - x[at - 1])
+def element_beside(history: ImpactHistory, k: int, front: float) -> float:
+    """Length of the element ``front`` m from the first touch, on the side with a node there: a half length's error."""
+    nodes, touch = history.positions(k), history.impact.first_touch
+    sides = (touch + front, touch - (1.0 - 1e-9) * front)[: history.sides]  # at a node the inner element
+    inside = [x for x in sides if nodes[0] <= x <= nodes[-1]]
+    return element_at(history, k, min(inside, key=lambda x: float(np.abs(nodes - x).min()), default=touch + front))
+
+
+def element_at(history: ImpactHistory, k: int, x: float) -> float:
+    """Length of the element at ``x``, m, or of the last one before it."""
+    nodes = history.positions(k)
+    at = min(max(int(np.searchsorted(nodes, x)), 1), nodes.size - 1)
+    return float(nodes[at] - nodes[at - 1])

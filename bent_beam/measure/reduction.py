@@ -53,7 +53,7 @@ def wall_peaks(history: ImpactHistory, until: float | None = None) -> WallPeaks 
     """The peaks up to ``until`` (s; ``None``: the end); ``None`` where the wall is rigid, or the path has none."""
     if "peak_force" not in history:
         return None
-    k = _instants(history, until) - 1
+    k = max(_instants(history, until) - 1, 0)
     names = ("peak_force", "peak_force_time", "peak_penetration", "peak_pressure")
     force, time, penetration, pressure = (float(history.array(name)[k]) for name in names)
     sharp = _sharpness(history, time) or LANDING * force
@@ -67,6 +67,8 @@ def _instants(history: ImpactHistory, until: float | None) -> int:
 
 def _pushed_at(history: ImpactHistory, time: float) -> tuple[float, str] | tuple[None, None]:
     """Mean |x|, m, of the pushes between the saved instants around ``time``, and the wall that gives most of them."""
+    if history.time.size < 2:
+        return None, None
     k = min(max(int(np.searchsorted(history.time, time)), 1), history.time.size - 1)
     gains = {w: np.diff(history.array(n, slice(k - 1, k + 1)), axis=0)[0] for w, n in WALLS.items() if n in history}
     wall, gain = max(gains.items(), key=lambda one: float(one[1].sum()))
@@ -202,7 +204,7 @@ def _spread(history: ImpactHistory, peak: PeakMoment) -> float:
     away = np.abs(x - x[np.argmin(np.abs(x - peak.place))])
     if history.sides == 1:  # the other half pushes as well; the middle is a half of its node
         away, pushes = np.concatenate((away, np.abs(-x - x[np.argmin(away)]))), np.tile(pushes, 2)
-    element = element_at(history, last, peak.place - impact.first_touch)
+    element = element_at(history, last, peak.place)
     near = away <= BESIDE * element
     push, total = (max(float(pushes[those].sum()), 0.0) for those in (away == 0.0, near))
     flat = impact.bending_stiffness * (impact.unbent_curvature - impact.wall_curvature)

@@ -110,8 +110,14 @@ def pushes(time: Array, impulse: Array, shortest: float) -> list[tuple[int, int]
     return [(int(i), int(k)) for i, k in zip(begin, end)]
 
 
+def _check_whole(history: ImpactHistory) -> None:
+    if not history.is_whole:
+        raise ValueError(f"the run models {history.modelled_length:.6g} m of the beam: its energy is not the beam's")
+
+
 def whole_impact(history: ImpactHistory) -> WholeImpact:
-    """Reduce a run. Raises ``ValueError`` when the wall was never touched."""
+    """Reduce a run. Raises ``ValueError`` where the wall was never touched, or the beam is modelled in part."""
+    _check_whole(history)
     impact, time = history.impact, history.time
     total, unit = history.array("total_impulse"), impact.slow_time_scale
     contacts = pushes(time, total, SHORTEST_SEPARATION * unit)
@@ -162,7 +168,7 @@ def whole_impact(history: ImpactHistory) -> WholeImpact:
         push_rise=2.0 * rise / (mass * speed),
         supplied=given,
         supplied_rate=float(work[end] - work[end - 1]) / float(time[end] - time[end - 1]) * unit / given,
-        element=element_at(history, -1, abs(peak.place - impact.first_touch)) / impact.half_length,
+        element=element_at(history, -1, peak.place) / impact.half_length,
         within=part * float(time[end] - time[end - 1]) / unit,
         drift={name: part * abs(ends[name] - begins[name]) for name in found},
         until=until / unit,
@@ -269,7 +275,9 @@ class Hit:
 
 
 def hits(history: ImpactHistory) -> list[Hit]:
-    """All hits of a run, in order of time; the last may not be over yet."""
+    """All hits of a run, in order of time; the last may not be over yet. Raises ``ValueError`` where the beam is
+    modelled in part."""
+    _check_whole(history)
     impact, time = history.impact, history.time
     copies = 2.0 / history.sides
     rows = {wall: copies * history.array(name) for wall, name in WALLS.items() if name in history}

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from bent_beam import Case, ImpactHistory
+from bent_beam import Case, ImpactHistory, InputError
 from bent_beam.measure.numbers import MISSING, Band, Number
 from comparison.doubts import comparable
 from comparison.figures import style
@@ -33,6 +33,8 @@ LOSSES = {
 
 def draw_history(history: ImpactHistory, out: Path, name: str, formats: Sequence[str] = ("png",)) -> list[Path]:
     """``name.png`` in ``out``; returns the files. The theory is drawn where it claims to hold."""
+    if history.time.size < 2:
+        raise InputError(f"{name}: one saved instant is nothing to draw")
     end, reach = _window(history)
     title = str(history.attrs.get("title", name))
     return style.save(sheet(history, title, end, reach=reach, below=(_impulse, _energies)), out, name, formats)

@@ -63,7 +63,7 @@ def _force(history: ImpactHistory, end: float) -> tuple[Array, Array]:
     if "peak_force" in history:
         window = end / WINDOWS
     edges: Array = window * np.arange(round(end / window) + 1, dtype=np.float64)
-    return edges, np.diff(np.interp(edges, history.time, history.array("total_impulse"))) / np.diff(edges)
+    return edges, np.diff(history.impulse_at(edges)) / np.diff(edges)
 
 
 def draw_force(axis: Any, history: ImpactHistory, end: float, words: str = "") -> None:

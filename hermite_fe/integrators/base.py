@@ -35,7 +35,7 @@ class Integrator(Part, ABC):
         rebound.
     """
 
-    where: ClassVar[str] = "integrator"
+    where: ClassVar[str] = "hermite.integrator"
     holds: ClassVar[bool] = False
     holds_zone: ClassVar[bool] = False
     rebounds: ClassVar[bool] = True
@@ -73,7 +73,7 @@ class Integrator(Part, ABC):
     def instants(self, end_time: float) -> Array:
         """All instants from 0 to ``end_time``, s, shape (steps + 1,). ``time_step`` must be set."""
         if self.time_step is None:
-            raise InputError("integrator.time_step is not chosen yet")
+            raise InputError("hermite.integrator.time_step is not chosen yet")
         step, growth = self.time_step, self.growth or 0.0
         switch = end_time if growth == 0.0 else min(end_time, step / growth)
         even = switch / step
@@ -81,7 +81,7 @@ class Integrator(Part, ABC):
         if not even + grown <= MAXIMUM_STEPS:
             raise InputError(
                 f"a run to t = {end_time:.4g} s takes {even + grown:.3g} steps, and {MAXIMUM_STEPS:.2g} are the most: "
-                f"give an earlier end, or a longer integrator.time_step (it is {step:.4g} s, growth {growth:g})"
+                f"give an earlier end, or a longer hermite.integrator.time_step (it is {step:.4g} s, growth {growth:g})"
             )
         times = np.linspace(0.0, switch, max(1, math.ceil(even * (1.0 - 1e-12))) + 1)
         if switch < end_time:

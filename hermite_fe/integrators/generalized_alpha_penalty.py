@@ -161,9 +161,9 @@ class GeneralizedAlphaPenalty(Integrator):
 
     def start(self, problem: Problem, state: State) -> PenaltyMemory:
         if self.stiffness is None or self.damping is None:
-            raise InputError("integrator.stiffness and integrator.damping are not chosen yet")
+            raise InputError("hermite.integrator.stiffness and hermite.integrator.damping are not chosen yet")
         if problem.rows.dofs.shape[1] != 1:
-            raise InputError('generalized_alpha_penalty takes contact.kind = "node" or "alternate"')
+            raise InputError('generalized_alpha_penalty takes hermite.contact.kind = "node" or "alternate"')
         motion = alpha.motion_of(problem, state, self.spectral_radius)
         return PenaltyMemory(motion, constraints_of(problem.rows), self.stiffness, self.damping, self.contact_rounds)
 

@@ -58,13 +58,13 @@ class MasslessBoundary(Integrator):
     damped: ClassVar[bool] = False
 
     def start(self, problem: Problem, state: State) -> MasslessMemory:
-        kind = "integrator.kind: massless_boundary"
+        kind = "hermite.integrator.kind: massless_boundary"
         if problem.matrices.causes.size:
-            raise InputError(f"{kind} takes no damping: far_field.viscosity and that of beam and wall must be 0")
+            raise InputError(f"{kind} takes no damping: hermite.far_field.viscosity, that of beam and wall must be 0")
         if np.any(state.bending.phi):
             raise InputError(f"{kind} leaves out the inertia of slopes: shear_stiffness is not modelled")
         if problem.rows.dofs.shape[1] > 1:
-            raise InputError(f'{kind} needs contact points that are dofs: contact.kind must be "alternate"')
+            raise InputError(f'{kind} needs contact points that are dofs: hermite.contact.kind must be "alternate"')
         matrices, solver, stride = problem.matrices, problem.solver, 2 if state.bending.lengths.size else 1
         mass = moved_masses(problem, stride)
         inner = (mass > 0.0) & ~solver.fixed[solver.unknown]
@@ -75,7 +75,7 @@ class MasslessBoundary(Integrator):
         bound, push = fastest(matrices.K, mass, inner), np.zeros_like(state.impulse)
         memory = MasslessMemory(constraints_of(problem.rows), inner, bound, push, *np.zeros((5, state.q.size)))
         if recompiling(lambda: settle(problem, state, memory, 0.0)) != SOLVED:
-            raise InputError("integrator.kind: the points that keep mass in massless_boundary must hold all others")
+            raise InputError(f"{kind}: the points that keep mass must hold all others")
         memory.push[:] = memory.conditions.p
         return memory
 
@@ -83,7 +83,7 @@ class MasslessBoundary(Integrator):
         self, problem: Problem, state: State, memory: MasslessMemory, times: Array, first: int, last: int
     ) -> Reached:
         needed = times[-1] * memory.fastest / STABLE
-        affordable("integrator.kind = massless_boundary and mesh", needed, state.q.size // 2, 1, MOST_WORK)
+        affordable("hermite.integrator.kind = massless_boundary and mesh", needed, state.q.size // 2, 1, MOST_WORK)
         return take_steps(problem, state, memory, times, first, last)
 
 
@@ -94,7 +94,7 @@ def moved_masses(problem: Problem, stride: int) -> Array:
     touching[problem.rows.dofs] = True
     if touching.size <= stride or np.any(touching[:-stride] & touching[stride:]):
         needs = "massless_boundary needs points that do not touch beside each that may, to carry its mass"
-        raise InputError(f'integrator.kind: {needs}: contact.kind must be "alternate"')
+        raise InputError(f'hermite.integrator.kind: {needs}: hermite.contact.kind must be "alternate"')
     mass, beside = M[0].copy(), np.full(touching.size, 2.0)
     for k in range(stride, 4, stride):
         mass[:-k] += M[k, :-k]

@@ -1,12 +1,13 @@
 """The record of a run: finite, complete, written whole or not at all, read back equal."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from histories import history_of
 
-from bent_beam import Impact, ImpactHistory
+from bent_beam import Impact, ImpactHistory, InputError
 
 
 def small(**fields):
@@ -22,6 +23,10 @@ def test_a_history_until_a_time_ends_there_and_recorded_moments_come_instant_by_
     run = history_of(time, x, bending_moment=np.outer(time, [3.0, 2.0, 1.0, 0.0]))
     cut = run.until(0.5)
     assert cut.time.tolist() == [0.0, 0.25, 0.5] and cut.array("gap").shape == (3, 4)
+    whole = replace(run, attrs={**run.attrs, "steps": 100})
+    assert (whole.until(0.5).steps, run.until(0.0).time.size) == (50, 1)
+    with pytest.raises(InputError, match="time must not be negative"):
+        run.until(-1.0)
     together, places = run.bending_moments(slice(1, 3))
     for row, k in zip(together, (1, 2)):
         moments, where = run.bending_moments(k)
@@ -64,4 +69,5 @@ def test_the_first_force_of_a_history_that_begins_late_is_a_mean_since_the_first
     """Whatever the unit of time."""
     late = history_of([2e-3, 4e-3], [0.0, 1.0], total_impulse=np.array([0.01, 0.03]))
     assert late.force == pytest.approx([5.0, 10.0])
+    assert late.impulse_at([0.0, 1e-3, 3e-3]) == pytest.approx([0.0, 0.005, 0.02])
     assert small().force == pytest.approx([0.0, 0.5, 0.5])

@@ -128,6 +128,13 @@ def test_gaps_are_compared_wherever_both_runs_have_the_beam_at_the_end_of_their_
     assert apart(*runs) == pytest.approx(0.0, abs=1e-12)
 
 
+def test_runs_without_a_time_in_common_are_not_compared() -> None:
+    one, other = (history_of(time, [0.0, 1.0]) for time in ([0.0, 0.1], [0.5, 1.0]))
+    for pair in ((one, other), (other, one)):
+        with pytest.raises(ValueError, match=r"no time in common: one ends at 0.1 s, one begins at 0.5 s"):
+            compare_histories(*pair)
+
+
 def test_of_two_runs_of_the_whole_beam_both_halves_are_compared_and_drawn() -> None:
     time, x = np.array([0.0, 1.0, 2.0]), np.linspace(-1.0, 1.0, 5)  # gaps are told over V₀t
     full = partial(history_of, symmetry="full")

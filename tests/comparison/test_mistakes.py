@@ -10,14 +10,17 @@ import hermite_fe
 from bent_beam import Impact, InputError
 from bent_beam.cases import EXAMPLES, load_case
 from bent_beam.meshes import UniformMesh
-from bent_beam.method import method_from_tables
+from bent_beam.method import method_from_tables, separation_times
 from comparison import bounce, match, predict, sweep
 from comparison.methods import methods_from_file
+from comparison.questions import Question
 from comparison.readable import folder
+from comparison.simulating import simulate_case
 from exudyn_models import ExudynModel
 from hermite_fe import HermiteFE
 from hermite_fe.contacts import NodeContact, element_rows
 from hermite_fe.integrators import MoreauJean
+from self_similar_fe import SelfSimilarFE
 
 IMPACT, TUBE = Impact.dimensionless(0.5, length=20.0), EXAMPLES / "tube.toml"
 
@@ -53,6 +56,12 @@ class Mute(MoreauJean):
         (lambda: bounce(Impact.whole_beam(2.0), Plain()), "take hermite or exudyn .*theirs lacks for_whole_beam"),
         (lambda: match(HermiteFE(), kappa_over_nu=[0.5, 0.5]), r"kappa_over_nu has a value twice \(got \[0.5, 0.5\]\)"),
         (lambda: match(HermiteFE(), kappa_over_nu=[0.5], refine=[1.0, 1.0]), "refine has a value twice"),
+        (lambda: match(HermiteFE(), kappa_over_nu=[]), r"kappa_over_nu must have a value \(got none\)"),
+        (lambda: match(first_order=[(4, 0, 0, 0, 7)]), r"first_order takes alpha, .*\(got \(4, 0, 0, 0, 7\)\)"),
+        (lambda: match(first_order=(4, 0, 0)), r"first_order takes alpha, .*\(got 4\)"),
+        (lambda: bounce(Impact.whole_beam(0.5).replace(axial_force=-3.0)), "beam.axial_force must not press with more"),
+        (lambda: Question(IMPACT, HermiteFE(), until=-1.0), r"until must be positive \(got -1.0\)"),
+        (lambda: separation_times(IMPACT, save=0), r"save must be a whole number of at least 1 \(got 0\)"),
         (lambda: sweep({}, {"impact.velocity": 3.0}), r"impact.velocity takes its values in a list, .*\(got 3.0\)"),
         (lambda: sweep(TUBE, {"impact.velocity": [1.0, float("nan")]}), "vary: impact.velocity must be"),
         (lambda: sweep(TUBE, {}), "nothing is varied"),
@@ -66,6 +75,32 @@ def test_a_mistake_of_extension_is_one_sentence_that_says_what_to_write(made, sa
     with pytest.raises(InputError, match=said) as told:
         made()
     assert "\n" not in str(told.value)
+
+
+@pytest.mark.parametrize("until", [None, 5e-5, 1e-3])
+@pytest.mark.parametrize("path", ["hermite", "exudyn"])
+def test_elements_and_steps_of_which_no_coarser_run_tells_the_error_are_refused_at_any_time(path, until) -> None:
+    """Two elements of half a beam would be their own companion, and so would one step."""
+    case = load_case(TUBE, ["beam.model=euler_bernoulli", f"{path}.integrator.time_step=1.0"])
+    elements = load_case(TUBE, ["mesh.kind=uniform", "mesh.element_length=0.5"])
+    for made, said in (
+        (case, f"{path}.integrator.time_step must be at most"),
+        (elements, "mesh has 3 elements in a half"),
+    ):
+        with pytest.raises(InputError, match=said):
+            simulate_case(made, path, until=until)
+
+
+def test_a_match_on_too_few_elements_is_refused() -> None:
+    (row,) = match(HermiteFE(mesh=UniformMesh(250.0)), kappa_over_nu=0.5)
+    assert row.refused and "mesh has 2 elements in a half beam of 500 m, and 4 are the fewest" in row.reason
+
+
+@pytest.mark.parametrize("method", [HermiteFE(), ExudynModel(), SelfSimilarFE()], ids=lambda one: one.path)
+@pytest.mark.parametrize("save", [[0.05, 0.05], [0.1, 0.0], [[0.1]], True, 1.5])
+def test_instants_to_save_are_a_whole_number_or_times_that_increase(method, save) -> None:
+    with pytest.raises(InputError, match="save must "):
+        method.simulate(Impact.dimensionless(0.5), end_time=0.1, save=save)
 
 
 def test_what_is_said_twice_or_has_no_effect_is_refused_by_its_name() -> None:

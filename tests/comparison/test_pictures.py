@@ -29,6 +29,12 @@ def inside(axis):
     return low <= values.min() and values.max() <= high
 
 
+def test_a_run_that_failed_in_its_first_step_is_nothing_to_draw(tmp_path) -> None:
+    one = recorded(np.zeros(1), np.zeros((1, 5)))
+    with pytest.raises(ValueError, match=r"x.partial: one saved instant is nothing to draw"):
+        draw_history(one, tmp_path, "x.partial")
+
+
 @pytest.mark.parametrize("tables", ["", "[wall]\nstiffness = 1e5", "[wall]\nopposite = 0.01\n[run]\nend_time = 0.02"])
 def test_nothing_is_cut_off_and_the_largest_values_are_marked_with_their_numbers(tables, tmp_path):
     case = load_case(rod(tmp_path, tables, element=0.1))

@@ -82,9 +82,9 @@ REFUSED = [
     (lambda: MoreauJean(time_step=1e-12).instants(1.0), "2e.07 are the most: give an earlier end"),
     (lambda: MoreauJean().instants(1.0), "not chosen yet"),
     # contact points without mass
-    (lambda: massless(viscosity=0.3), r"takes no damping: far_field.viscosity"),
+    (lambda: massless(viscosity=0.3), r"takes no damping: hermite.far_field.viscosity"),
     (lambda: massless(contact=NodeContact()), r'points that do not touch.*contact.kind must be "alternate"'),
-    (lambda: massless(contact=MiddleContact()), r'points that are dofs: contact.kind must be "alternate"'),
+    (lambda: massless(contact=MiddleContact()), r'points that are dofs: hermite.contact.kind must be "alternate"'),
     (lambda: massless(contact=AlternateContact(restitution=0.5)), r"restitution must be 0 \(got 0.5\)"),
     (lambda: massless(SHORT.replace(shear_stiffness=50.0)), r"shear_stiffness"),
     (lambda: massless(element=1e-3, end_time=1e3), r"massless_boundary and mesh ask for .* steps"),

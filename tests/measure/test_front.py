@@ -8,6 +8,7 @@ from bent_beam import Impact, ImpactHistory
 from bent_beam.measure.force_map import force_map, spread
 from bent_beam.measure.instant import instant, largest_moment
 from bent_beam.measure.moments import (
+    element_at,
     first_front,
     half_contact_length,
     jump_of_rim,
@@ -45,7 +46,7 @@ def test_a_middle_that_lifts_off_does_not_shorten_the_contact_and_a_late_push_al
     for near, jump in ((0.779, 0.021), (0.786, 0.0)):  # 2.6 % of itself; 1.8 %, where one ~ √t moves on by 0.5 %
         close = history_of(time, [0.0, 0.1, 0.2, 0.3, near, 0.79, 0.793, 0.796, 0.8, 0.9, 1.0], impulse=impulse)
         assert max(jump_of_rim(close, k) for k in range(80, 100)) == pytest.approx(jump)
-    assert mean_reaction(history, 0.0) is None
+    assert (mean_reaction(history, 0.0), mean_reaction(history, 0.05)) == (None, pytest.approx(2.0))
     assert mean_reaction(history, history.time[100]) is None  # no tenth after the end
     assert mean_reaction(history, 1.0 / 1.1) == pytest.approx(2.0 + 2.0 * 0.12 / (0.2 / 1.1))  # the tenth is the last
     assert mean_reaction(history, history.time[75]) == pytest.approx(2.0, rel=1e-9)
@@ -98,9 +99,14 @@ def test_a_rim_that_jumps_about_an_instant_is_known_to_its_jump_alone() -> None:
 def test_half_a_contact_is_as_long_as_it_reaches_from_the_first_touch() -> None:
     """0.4 m to the right of it, where elements are short, and 0.3 m to the left; a round-off beyond is no push."""
     time, x = np.linspace(0.0, 1.0, 11), np.array([-1.0, -0.1, 0.2, 0.5, 0.6, 1.0])
-    impact, impulse = Impact.whole_beam(0.5).replace(first_touch=0.2), np.outer(time, [1e-9, 1.0, 1.0, 0.0, 1e-7, 0.0])
-    found = instant(history_of(time, x, impact=impact, symmetry="full", impulse=impulse), 0.5)
+    impact, impulse = Impact.whole_beam(0.5).replace(first_touch=0.2), np.outer(time, [1e-6, 1e3, 1e3, 0.0, 1e-4, 0.0])
+    history = history_of(time, x, impact=impact, symmetry="full", impulse=impulse)
+    found = instant(history, 0.5)
     assert (found.half_contact_length, found.element) == pytest.approx((0.4, 0.1))
+    mirrored = impact.replace(first_touch=-0.2)
+    found = instant(history_of(time, -x[::-1], impact=mirrored, symmetry="full", impulse=impulse[:, ::-1]), 0.5)
+    assert (found.half_contact_length, found.element) == pytest.approx((0.4, 0.1))
+    assert [element_at(history, -1, place) for place in (-0.5, 0.0, 0.55, 0.9)] == pytest.approx([0.9, 0.3, 0.1, 0.4])
 
 
 def test_the_map_of_forces_holds_the_impulse_and_a_pull_is_a_share_of_a_push_in_any_unit() -> None:

@@ -17,6 +17,7 @@ def test_a_number_has_the_digits_of_its_error_bar_and_powers_of_ten_below_1e_4_a
         (Number(9e5, 1e5), "900000 ± 100000"), (Number(1e6, 1e5), "(1.00 ± 0.10)e+06"),
         (Number(12.94, 53.0), "13 ± 50"), (Number(1018.0, 9051.0), "1000 ± 9000"), (Number(-9.6, 12.0), "-9.6 ± 12"),
         (Number(0.996, 2.0), "1.0 ± 2"), (Number(99.7, 300.0), "100 ± 300"),
+        (Number(3.0, 53.0), "3.0 ± 50"), (Number(1.0, 53.0), "0 ± 50"),
         (Band(2.0, 0.31, 5), "2.0 ± 0.3 (band of 5 runs)"), (Band(math.nan, math.nan, 5), "- (band of 5 runs)"),
     ):  # fmt: skip
         assert str(number) == written
@@ -39,11 +40,14 @@ def test_a_bar_holds_the_error_of_a_run_of_first_order_and_is_at_most_twice_as_w
     assert number_of(2.1, {"mesh_and_step": 2.2, "law": 2.0}, {"drift": 3.0}).bar == pytest.approx(2 * found.bar + 3.0)
     assert number_of(2.1, {"mesh_and_step": 2.2, "law": None}).bar is number_of(2.1, {}).bar is None
     assert number_of(2.0, {"mesh_and_step": 2.0 + 1e-9}).bar == pytest.approx(2e-5)  # chance gives no finer one
+    assert number_of(200.0, {"mesh_and_step": 200.0 + 1e-5}).bar == pytest.approx(2e-3)
     assert number_of(2.0, {"mesh_and_step": 2.0}).bar == 0.0  # a count
 
 
 def test_a_band_is_mean_and_standard_deviation_of_its_runs() -> None:
     assert Band.of([1.0, 2.0, 3.0]) == Band(2.0, 1.0, 3)
     assert Band.of([1.0, 2.0, 3.0]).scaled(2.0, -1.0) == Band(3.0, 2.0, 3)
+    assert Band.of([1.0, 2.0, 3.0]).scaled(2.0) == Band(4.0, 2.0, 3)
+    assert Number(0.3, 2.0, 0.2).scaled(2.0, 1.0) == Number(1.6, 4.0, 1.4)
     turned = Number(0.3, 2.0, parts={"mesh": 2.0}).scaled(-10.0, name="dN")
     assert turned == Number(-3.0, 20.0, unit="dN", parts={"mesh": 20.0})

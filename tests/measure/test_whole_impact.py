@@ -125,7 +125,9 @@ def test_hits_are_contacts_whose_gaps_are_shorter_than_a_period_of_the_first_mod
     for later, gone in ((3.0, True), (1.0, False)):  # another hit tells that the first is over
         known = whole_impact(pushed_until(0.5, last=later + 0.6, again=later, impact=drawn))
         assert (known.left, known.separations, known.again, known.restitution is not None) == (False, 1, gone, gone)
+    assert (found.until, whole_impact(pushed_until(0.5, last=1.0)).until) == (pytest.approx(4.0), pytest.approx(1.0))
     soon = whole_impact(pushed_until(0.5, last=4.0, again=1.0))
+    assert soon.last_push == pytest.approx(1.45)  # over mV₀
     assert np.array(soon.contacts) == pytest.approx(np.array([[0.0, 0.5], [1.0, 1.5]]), abs=2.0 * soon.within)
     assert soon.restitution == pytest.approx(1.9)
     for hit, begin, before, after in zip(hits(twice), (0.0, 3.0), (1.0, -0.45), (-0.45, -1.9), strict=True):
@@ -226,6 +228,13 @@ def test_breaks_shorter_than_the_shortest_separation_are_none() -> None:
     assert pushes(time, np.zeros(10), 1.0) == []
     with pytest.raises(ValueError, match="before the wall was touched"):
         whole_impact(pushed_until(0.0))
+
+
+@pytest.mark.parametrize("reduced", [hits, whole_impact])
+def test_a_beam_that_is_modelled_in_part_has_no_hits(reduced) -> None:
+    """Its energy is that of the part; its velocity would be that of all of it."""
+    with pytest.raises(ValueError, match=r"the run models 1.6 m of the beam: its energy"):
+        reduced(pushed_until(0.3, x=np.linspace(0.0, 0.8, 5)))
 
 
 def test_the_largest_force_is_told_in_half_the_beams_momentum_a_period() -> None:

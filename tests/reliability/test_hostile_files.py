@@ -4,6 +4,7 @@ import json
 import math
 import os
 import re
+import signal
 
 import h5py
 import numpy as np
@@ -11,7 +12,7 @@ import pytest
 from called import CASE, command, refused
 
 import hermite_fe
-from bent_beam import Impact, ImpactHistory
+from bent_beam import Impact, ImpactHistory, guarded
 from bent_beam.cases import EXAMPLES
 from bent_beam.meshes import UniformMesh
 from comparison.compare import rerun_history
@@ -206,6 +207,24 @@ def test_no_text_acts_on_the_terminal(words, code):
     found, out, err = command(*words.format(evil=EVIL).split())
     assert (found, err.count("\n")) == (code, code // 2)
     assert "u202e" in out + err and all(c.isprintable() or c == "\n" for c in out + err), (out, err)
+
+
+def test_an_answer_that_nobody_waited_for_is_not_taken_for_that_on_the_next_file(good, tmp_path):
+    """Ctrl-C while a damaged file is examined: a good one is read, and the damaged one is still refused."""
+    (tmp_path / "good.nc").write_bytes(good)
+    (tmp_path / "bad.nc").write_bytes(b"any")
+    ImpactHistory.load(tmp_path / "good.nc")  # the child is there
+    child = guarded._child
+    os.kill(child.pid, signal.SIGSTOP)
+    before = signal.signal(signal.SIGALRM, signal.default_int_handler)
+    signal.setitimer(signal.ITIMER_REAL, 0.2)
+    with pytest.raises(KeyboardInterrupt):
+        ImpactHistory.load(tmp_path / "bad.nc")
+    signal.signal(signal.SIGALRM, before)
+    if child.poll() is None:
+        os.kill(child.pid, signal.SIGCONT)
+    assert ImpactHistory.load(tmp_path / "good.nc").time.size == 12
+    assert "signature" in refusal(tmp_path / "bad.nc")
 
 
 def test_a_file_whose_reading_hangs_or_crashes_is_no_history(tmp_path, monkeypatch):
