@@ -83,15 +83,19 @@ def _last(history: ImpactHistory) -> State:
 
 
 def has_left(history: ImpactHistory) -> bool:
-    """Whether a run ends with the beam off the wall for good: it cannot return, or, where that cannot be told, has not
-    pushed for :data:`LOWEST_PERIOD`."""
+    """Whether a run ends with the beam off the wall: it cannot return, or has not pushed for :data:`LOWEST_PERIOD`."""
     quiet = _quiet(history)
-    return quiet > 0.0 and _is_off(history.impact, quiet, lambda: _last(history))
+    return quiet >= _period(history.impact) or (quiet > 0.0 and _is_off(history.impact, quiet, lambda: _last(history)))
 
 
 def is_over(history: ImpactHistory) -> bool:
     """Whether a run holds a whole impact, as :class:`Separation` asks for it."""
-    return _quiet(history) >= LOWEST_PERIOD * history.impact.slow_time_scale and has_left(history)
+    quiet = _quiet(history)
+    return quiet >= _period(history.impact) and _is_off(history.impact, quiet, lambda: _last(history))
+
+
+def _period(impact: Impact) -> float:
+    return LOWEST_PERIOD * impact.slow_time_scale
 
 
 def _quiet(history: ImpactHistory) -> float:
@@ -115,7 +119,7 @@ def may_return(history: ImpactHistory) -> bool:
 def _is_off(impact: Impact, quiet: float, state: Callable[[], State]) -> bool:
     """Whether a beam that has not pushed for ``quiet`` s is off for good: of ``state``, where that tells it."""
     if not bears_free_flight(impact):
-        return quiet >= LOWEST_PERIOD * impact.slow_time_scale
+        return quiet >= _period(impact)
     x, gap, velocity, energy = state()
     return bool(gap.min() > 0.0) and cannot_return(impact, x, gap, velocity, energy)
 
@@ -125,7 +129,7 @@ class Separation:
     which its largest stress may still come, and is off the wall for good."""
 
     def __init__(self, impact: Impact) -> None:
-        self.impact, self.period = impact, LOWEST_PERIOD * impact.slow_time_scale
+        self.impact, self.period = impact, _period(impact)
         self.impulse = self.since = 0.0
 
     def __call__(self, time: float, impulse: float, state: Callable[[], State], *, closed: bool = False) -> bool:

@@ -28,8 +28,12 @@ class Scales(Part):
         float,
         Load("m/s²", "a₀ at the first touch; in a case file free flight unless given", group="alpha", powers=(0, 2)),
     ] = 0.0
-    curvature_rate: Annotated[float, Load("1/(m s)", "c₀ = ∂³y₀/∂x²∂t", group="chi", powers=(2, 1))] = 0.0
-    fourth_derivative: Annotated[float, Load("1/m³", "q₀ = ∂⁴y₀/∂x⁴", group="psi", powers=(4, 0))] = 0.0
+    curvature_rate: Annotated[
+        float, Load("1/(m s)", "c₀ = ∂³y₀/∂x²∂t; free ends lack its moment", group="chi", powers=(2, 1))
+    ] = 0.0
+    fourth_derivative: Annotated[
+        float, Load("1/m³", "q₀ = ∂⁴y₀/∂x⁴; free ends lack its moment", group="psi", powers=(4, 0))
+    ] = 0.0
     section_height: Annotated[
         float, Quantity("m", "d, for EA = 12 EI/d² on the Exudyn path; of a [section] √12 radii of gyration", above=0.0)
     ] = 0.01
@@ -44,7 +48,7 @@ class Scales(Part):
     ] = "axis"
     damping: Annotated[float, Quantity("s", "η, Kelvin–Voigt damping of the beam's own material", least=0.0)] = 0.0
     hysteretic_loss: Annotated[
-        float, Feature("1", "loss factor of the material, nearly that of all frequencies", least=0.0, most=1.0,
+        float, Feature("1", "damping by a loss factor nearly the same at all frequencies", least=0.0, most=1.0,
                        instead=": take the Hermite path, or damping in its place")] = 0.0  # fmt: skip
     loss_frequency: Annotated[float | None, Quantity("Hz", "where EI and hysteretic_loss hold", above=0.0)] = None
     wall_curvature: Annotated[float, Quantity("1/m", "K_w, positive where the wall is concave; less than K")] = 0.0
@@ -68,7 +72,7 @@ class Scales(Part):
         float | None, Place("m", "where the wall begins, from the middle", instead=SIMULATED, outside=GOES_ON)
     ] = None
     wall_to: Annotated[
-        float | None, Place("m", "where it ends; at wall_from: a stop", instead=SIMULATED, outside=GOES_ON)
+        float | None, Place("m", "where it ends; equal to from: a stop", instead=SIMULATED, outside=GOES_ON)
     ] = None
     left_end: Annotated[str, Feature("", "how the end at x = −L/2 is held", choices=ENDS, instead=SIMULATED)] = "free"
     right_end: Annotated[str, Feature("", "how the end at x = L/2 is held", choices=ENDS, instead=SIMULATED)] = "free"

@@ -49,7 +49,7 @@ class BeamTable(Part):
     damping_ratio: Annotated[
         float | None, Quantity("1", "the same as damping ratio of the first free–free bending mode", least=0.0)
     ] = None
-    loss_factor: Annotated[float | None, Quantity("1", "the same as loss factor at loss_frequency", least=0.0)] = None
+    loss_factor: Annotated[float | None, Quantity("1", "damping as a loss factor at loss_frequency", least=0.0)] = None
     hysteretic_loss: Annotated[float | None, of_impact("hysteretic_loss")] = None
     loss_frequency: Annotated[
         float | None, Quantity("Hz", "where loss_factor or hysteretic_loss was measured", above=0.0)

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from bent_beam import Case, Impact, ImpactHistory
-from bent_beam.free_flight import LOWEST_PERIOD
+from bent_beam.free_flight import LOWEST_PERIOD, bears_free_flight
 from bent_beam.measure.balance import Balance
 from bent_beam.measure.numbers import MISSING, Band, Number
 from bent_beam.measure.whole_impact import SHORTEST_SEPARATION, WINDOW, WholeImpact, peak_times
@@ -62,8 +62,8 @@ class Bounce:
 
     @property
     def left(self) -> bool:
-        """Whether the beam is off the wall for good in every run that a number or its bar comes from."""
-        return all(run.reading["left"] for run in self.runs.every)
+        """Whether the first hit is over in every run that a number or its bar comes from."""
+        return all(run.reading["left"] or run.reading["again"] for run in self.runs.every)
 
     @property
     def seconds(self) -> float:
@@ -142,9 +142,10 @@ class Bounce:
                 "given; state a damping for numbers"
             )
         rising = [WHOLE[name].title for name in MAY_RISE if self.numbers.get(name) == MISSING]
-        if rising and not self.left:
+        if rising:
             found.append(f"no {' and no '.join(rising)}: it still rises when the run ends")
         turns = self.impact.supported or self.impact.wall_in_part or self.impact.off_centre
+        turns = turns or bears_free_flight(self.impact)
         pressed, stays = self.impact.net_load > 0.0, "it has not left the wall for good, so no restitution is given"
         thrown = ON_WALL * time_on_wall(self.impact) < LONGEST_OF_WALL * self.units["time"]  # if no load holds it
         if not self.left and pressed and thrown:

@@ -144,8 +144,9 @@ def whole_numbers(made: Runs) -> dict[str, Number | Band]:
     if reading["midspan_moment"] == reading["peak_moment"]:
         known["midspan_moment"] = known["peak_moment"]
     found = dict(bands_of(made, names) if made.question.band else numbers_of(made, names, known))
-    if not all(run.reading["left"] for run in made.every):
+    if not all(run.reading["left"] or run.reading["again"] for run in made.every):
         found |= {name: Number() for name in FINAL}
+    if not all(run.reading["left"] for run in made.every):
         late = reading["until"] - LOWEST_PERIOD  # a force or a moment that still rises there is not the largest
         found |= {name: Number() for name in MAY_RISE if (reading.get(f"{name}_time") or 0.0) > late}
     return found
@@ -213,7 +214,7 @@ def followed_hits(impact: Impact, method: Method, count: int, *, first: ImpactHi
     while True:
         run = chosen.simulate(impact, end_time=end, save=separation_times(impact, end, INSTANTS))
         found = hits(run)
-        over = [hit for hit in found if end - hit.end >= period]
+        over = [hit for hit in found if hit.over]
         rests = len(over) < len(found) and end - found[-1].begin >= at_rest
         gone = over and impact.net_load <= 0.0 and not may_return(run)
         longest = followed_until(impact, over)

@@ -210,7 +210,8 @@ def hits_table(rows: Sequence[Mapping[str, Any]], names: Sequence[str]) -> str:
     both = (
         " Where two overlap, velocities, energies and\nmoments are those of both together." if "wall" in names else ""
     )
+    cut = "" if rows[-1].get("over", True) else "\nThe last hit was not over at the end of the run."
     return (
         f"{table}\nHits are read from the saved instants of one run and have no error bars. Of all but the first, the "
-        f"second digit\nis uncertain. A moment is the largest until the next hit.{both}"
+        f"second digit\nis uncertain. A moment is the largest until the next hit.{both}{cut}"
     )

@@ -57,8 +57,8 @@ class WholeImpact:
         growth in T* there. element : length over ℓ of the element at the largest moment; its place lies in it.
     energy_defect : what the independently computed terms of the budget leave, of the initial energy; energy_gain : the
         largest rise of the energy, what springs of the wall hold included, above what loads have worked, likewise.
-    left : whether the beam is off the wall for good; otherwise no number is final. again : whether the run has later
-        hits; may_return : whether any may come after it (:func:`bent_beam.free_flight.may_return`).
+    left : whether the beam is off the wall (:func:`bent_beam.free_flight.has_left`); otherwise no number is final.
+        again : whether the run has later hits; may_return : whether any may come after it.
     """
 
     restitution: float | None
@@ -219,8 +219,7 @@ def peak_times(found: WholeImpact, impact: Impact) -> dict[str, Any]:
 
 
 def _grouped(contacts: list[tuple[int, int, str]], impact: Impact, time: Array) -> list[list[tuple[int, int, str]]]:
-    """Contacts (begin, end, wall) of one hit together: with one wall, gaps between them shorter than a period of the
-    first mode."""
+    """Contacts (begin, end, wall) by hits: with one wall, gaps shorter than a period of the first mode."""
     groups: list[list[tuple[int, int, str]]] = []
     for begin, end, wall in contacts:
         _, last, before = groups[-1][-1] if groups else (0, 0, "")
@@ -232,8 +231,7 @@ def _grouped(contacts: list[tuple[int, int, str]], impact: Impact, time: Array) 
 
 
 def _velocity(history: ImpactHistory, k: int, time: float) -> float:
-    """Velocity of the centre of mass into the wall at saved instant ``k``, or at ``time``, s, before it and after its
-    last push, m/s."""
+    """Of the centre of mass, into the wall, m/s: at saved instant ``k``, or at ``time``, s, beside its last push."""
     impact, x = history.impact, history.positions(k)
     if impact.supported:  # by forces that no history holds, and which change it between a push and the instant after
         two = slice(k, min(k + 2, history.time.size))
@@ -254,7 +252,8 @@ class Hit:
 
     before, after : velocities of the centre of mass, m/s, positive towards the front wall; energy : kinetic, strain and
     in springs of the wall after it, J; lost : what the energy and the work of the loads fell by meanwhile, J; moment :
-    the largest from its begin to that of the next, or its end, N m (``None`` where the steps' are not kept).
+    the largest until the next begins, or this ends, N m (``None`` where the steps' are not kept). over : whether the
+    beam is off the wall in the run, or hits again.
     """
 
     wall: str
@@ -267,6 +266,7 @@ class Hit:
     energy: float
     lost: float
     moment: float | None
+    over: bool = True
 
     @property
     def restitution(self) -> float:
@@ -275,8 +275,7 @@ class Hit:
 
 
 def hits(history: ImpactHistory) -> list[Hit]:
-    """All hits of a run, in order of time; the last may not be over yet. Raises ``ValueError`` where the beam is
-    modelled in part."""
+    """All hits of a run, in order of time. Raises ``ValueError`` where the beam is modelled in part."""
     _check_whole(history)
     impact, time = history.impact, history.time
     copies = 2.0 / history.sides
@@ -296,5 +295,6 @@ def hits(history: ImpactHistory) -> list[Hit]:
         has, lost, pushed = float(energy[k] + work[k]), float(energy[i] - energy[k]), float(given.sum())
         until = float(time[max(later, k)])  # of two walls one may push while the other does
         moment = peak_moment(history, until, since=i).moment if "largest_moment" in history else None
-        found.append(Hit(wall, float(time[i]), end, place, pushed, before, after, has, lost, moment))
+        over = group is not groups[-1] or has_left(history)
+        found.append(Hit(wall, float(time[i]), end, place, pushed, before, after, has, lost, moment, over))
     return found

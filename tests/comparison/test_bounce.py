@@ -16,9 +16,8 @@ from bent_beam.measure.numbers import Band, Number
 from bent_beam.measure.whole_impact import whole_impact
 from bent_beam.meshes import GradedMesh, NodesMesh, UniformMesh
 from bent_beam.method import LONGEST_OF_WALL, separation_times, simulate_to_separation, time_on_wall
-from comparison.bouncing import bounce, case_of, follow_hits, followed_hits, followed_until, problem
+from comparison.bouncing import bounce, follow_hits, problem
 from comparison.questions import Question
-from comparison.readable import milliseconds
 from comparison.store import RunStore
 from comparison.texts import run_text
 from exudyn_models import ExudynModel
@@ -203,35 +202,6 @@ def test_runs_whose_processes_die_are_told_and_one_that_is_left_is_no_band(monke
     found = bounce(problem(2.0, 0.0), HermiteFE(mesh=UniformMesh(0.1)), runs=3, jobs=2)
     assert sum(line.startswith("no companion run") and "the worker died" in line for line in found.warnings) == 2
     assert found.numbers["restitution"].value is None
-
-
-def test_a_flight_under_a_load_does_not_count_and_where_it_is_too_long_its_end_is_told(monkeypatch) -> None:
-    """2ev/a to the next hit: longer than the 5 T* to which a beam is followed here."""
-    monkeypatch.setattr("comparison.bouncing.LONGEST_OF_WALL", 5.0)
-    impact, few = problem(2.0, 0.02).replace(acceleration=0.15), HermiteFE(mesh=UniformMesh(0.1))
-    first, unit = bounce(impact, few).history, impact.slow_time_scale
-    one, two = followed_hits(impact, few, 2, first=first)[0]
-    back = one.end - 2.0 * one.after / 0.15
-    assert two.begin == pytest.approx(back, rel=0.05) and two.begin > 5.0 * unit
-    assert followed_until(impact, [one]) == pytest.approx(5.0 * unit + back - one.end, rel=1e-12)
-    monkeypatch.setattr("comparison.bouncing.FLIGHTS", 0.5)
-    fewer, why = followed_hits(impact, few, 2, first=first)
-    said = f"is back at about {milliseconds(back)}, and it is followed until {milliseconds(5.5 * unit)}"
-    assert fewer == [one] and why.endswith(said)
-    _, why = followed_hits(impact.replace(acceleration=0.0), few, 2, first=first)
-    assert why.startswith("then the beam is off for good")
-
-
-@pytest.mark.verify
-def test_a_beam_that_rocks_back_onto_its_wall_is_told_and_followed() -> None:
-    """Literal values of an explicit code of finite differences, 160 elements: 2.3165 to 2.4715, 0.3973."""
-    impact = problem(2.0, 0.02).replace(first_touch=0.3, wall_stiffness=3e3)
-    impact = impact.replace(shear_stiffness=400.0, rotary_inertia=5e-4, wall_damping=0.6 * math.sqrt(3e3))
-    found = bounce(case_of(impact), HermiteFE())
-    assert any(line.startswith("the beam comes back to the wall") for line in found.warnings)
-    _, second = follow_hits(impact, HermiteFE(), 3, first=found.history)
-    assert second.begin == pytest.approx(2.316, abs=6e-3) and second.end == pytest.approx(2.4715, abs=6e-3)
-    assert second.impulse == pytest.approx(0.3973, abs=1e-3)
 
 
 def test_a_damping_that_is_not_stated_is_answered_over_three_and_one_that_is_stated_once(tmp_path) -> None:

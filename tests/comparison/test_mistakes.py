@@ -78,10 +78,11 @@ def test_a_mistake_of_extension_is_one_sentence_that_says_what_to_write(made, sa
 
 
 @pytest.mark.parametrize("until", [None, 5e-5, 1e-3])
-@pytest.mark.parametrize("path", ["hermite", "exudyn"])
-def test_elements_and_steps_of_which_no_coarser_run_tells_the_error_are_refused_at_any_time(path, until) -> None:
+@pytest.mark.parametrize(("path", "kind"), [("hermite", "moreau_jean"), ("exudyn", "generalized_alpha")])
+def test_elements_and_steps_of_which_no_coarser_run_tells_the_error_are_refused_at_any_time(path, kind, until) -> None:
     """Two elements of half a beam would be their own companion, and so would one step."""
-    case = load_case(TUBE, ["beam.model=euler_bernoulli", f"{path}.integrator.time_step=1.0"])
+    steps = [f"{path}.integrator.kind={kind}", f"{path}.integrator.time_step=1.0"]
+    case = load_case(TUBE, ["beam.model=euler_bernoulli", *steps])
     elements = load_case(TUBE, ["mesh.kind=uniform", "mesh.element_length=0.5"])
     for made, said in (
         (case, f"{path}.integrator.time_step must be at most"),

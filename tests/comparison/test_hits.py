@@ -1,0 +1,63 @@
+"""The hits of one wall: of beams that rock, fly under a load, or are still on it when the run ends."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+from histories import pushed_until
+
+from bent_beam.measure.whole_impact import hits
+from bent_beam.meshes import UniformMesh
+from comparison.bouncing import bounce, case_of, follow_hits, followed_hits, followed_until, problem
+from comparison.readable import hits_table, milliseconds
+from comparison.whole_numbers import OF_ONE_WALL
+from hermite_fe import HermiteFE
+
+
+def test_a_flight_under_a_load_does_not_count_and_where_it_is_too_long_its_end_is_told(monkeypatch) -> None:
+    """2ev/a to the next hit: longer than the 5 T* to which a beam is followed here."""
+    monkeypatch.setattr("comparison.bouncing.LONGEST_OF_WALL", 5.0)
+    impact, few = problem(2.0, 0.02).replace(acceleration=0.15), HermiteFE(mesh=UniformMesh(0.1))
+    first, unit = bounce(impact, few).history, impact.slow_time_scale
+    one, two = followed_hits(impact, few, 2, first=first)[0]
+    back = one.end - 2.0 * one.after / 0.15
+    assert two.begin == pytest.approx(back, rel=0.05) and two.begin > 5.0 * unit
+    assert followed_until(impact, [one]) == pytest.approx(5.0 * unit + back - one.end, rel=1e-12)
+    monkeypatch.setattr("comparison.bouncing.FLIGHTS", 0.5)
+    fewer, why = followed_hits(impact, few, 2, first=first)
+    said = f"is back at about {milliseconds(back)}, and it is followed until {milliseconds(5.5 * unit)}"
+    assert fewer == [one] and why.endswith(said)
+    _, why = followed_hits(impact.replace(acceleration=0.0), few, 2, first=first)
+    assert why.startswith("then the beam is off for good")
+
+
+@pytest.mark.verify
+def test_a_beam_that_rocks_back_onto_its_wall_is_told_and_followed() -> None:
+    """Literal values of an explicit code of finite differences, 160 elements: 2.3165 to 2.4715, 0.3973."""
+    impact = problem(2.0, 0.02).replace(first_touch=0.3, wall_stiffness=3e3)
+    impact = impact.replace(shear_stiffness=400.0, rotary_inertia=5e-4, wall_damping=0.6 * math.sqrt(3e3))
+    found = bounce(case_of(impact), HermiteFE())
+    assert any(line.startswith("the beam comes back to the wall") for line in found.warnings)
+    _, second = follow_hits(impact, HermiteFE(), 3, first=found.history)
+    assert second.begin == pytest.approx(2.316, abs=6e-3) and second.end == pytest.approx(2.4715, abs=6e-3)
+    assert second.impulse == pytest.approx(0.3973, abs=1e-3)
+
+
+def test_a_free_beam_that_rocks_away_slowly_has_the_numbers_of_its_first_hit_and_may_come_back() -> None:
+    """Its end turns to the wall about as fast as it leaves: no bound says that it never returns."""
+    impact = problem(1.9, 0.013).replace(first_touch=0.17)
+    found = bounce(impact, HermiteFE(mesh=UniformMesh(0.1)))
+    assert found.left and any(line.startswith("the beam may come back to the wall") for line in found.warnings)
+    restitution, pressed = found.numbers["restitution"], impact.replace(acceleration=1e-9)
+    held = bounce(pressed, HermiteFE(mesh=UniformMesh(0.1))).numbers["restitution"]
+    assert abs(restitution.known - held.known) <= restitution.spread + held.spread
+
+
+@pytest.mark.parametrize(("energy", "last", "over"), [(1.0, 1.0, False), (1.0, 2.0, True), (0.21, 1.0, True)])
+def test_a_hit_is_over_when_the_beam_stays_off_for_a_period_or_cannot_return(energy, last, over) -> None:
+    """At 0.45 V₀ its flight has 0.2025 μℓV₀²; what else there is bends it, and may bring it back."""
+    (hit,) = hits(pushed_until(0.5, last=last, kinetic_energy=np.full(round(20 * last) + 1, energy)))
+    assert hit.over == over
+    row = dataclasses.asdict(hit) | {"restitution": hit.restitution}
+    assert ("The last hit was not over" in hits_table([row], OF_ONE_WALL)) != over
