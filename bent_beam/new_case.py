@@ -50,7 +50,7 @@ velocity = {velocity:<16} # m/s towards the wall (or drop_height, m; angular_spe
 # end_time = 0.005          # s, of the table of predict and of simulate; that of the first spread unless given
 """
 
-UNSTATED = '"state it: 0.0002 bare steel, 0.002 as held, 0.02 with joints, 0 none"'
+UNSTATED = '"state it: 0.0002 bare steel, 0.002 as held, 0.02 a structure, 0 none"'
 """In place of a damping ratio: whoever reads the case is told the choices, those of `bouncing.DAMPING_RATIOS`."""
 
 

@@ -152,7 +152,7 @@ class Bounce:
             found.append(
                 f"the loads keep the beam on the wall: {stays} (flights shorter than "
                 f"{1e3 * LOWEST_PERIOD * self.units['time']:.3g} ms are part of a hit; for that of the impact alone "
-                "give impact.velocity and no load that presses)"
+                "give impact.velocity in place of drop_height, and no load that presses)"
             )
         elif not self.left:
             found.append(f"a run ended with the beam at the wall: {stays}")

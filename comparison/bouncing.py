@@ -36,7 +36,7 @@ __all__ = ["DAMPING_RATIOS", "bounce", "case_of", "follow_hits", "problem", "who
 
 Beam = Case | Impact | str | Path | Mapping[str, Any]
 RUNS = 24  # of a band
-DAMPING_RATIOS = (0.0002, 0.002, 0.02)  # of the first mode: bare steel, a bar as it is held, with joints
+DAMPING_RATIOS = (0.0002, 0.002, 0.02)  # of the first mode: bare steel, a bar as it is held, a structure
 INSTANTS = 200  # saved a T* of a run that follows hits
 FLIGHTS = 50.0  # T*, most that flights under a load add to LONGEST_OF_WALL: a run saves 200 instants a T*
 RESTS = 10.0  # periods of the lowest mode: a hit that lasts longer is the last

@@ -26,7 +26,7 @@ BEAMS = {  # which beam an answer is of, by ``Impact.model``
 
 REGIMES = {
     "discrete": "The contact stays one point.",
-    "continuous": "The contact spreads: a zone with a concentrated force at each end.",
+    "continuous": "The contact spreads: a zone that pushes mostly at its ends.",
     "detached": "The contact is two points that move apart; the beam lifts off between them.",
 }
 SHORT_ZONE = "The contact stays short: at first a zone, as the beam shears, which shrinks to one point."
@@ -35,15 +35,16 @@ LIMITS = {
     "waves back from the ends": "reflections from the beam's ends arrive",
     "first-order correction": "the loads change the contact by more than first order covers",
     "tension": "the axial force changes the contact by more than first order covers",
-    "damping": "the contact spreads, for which material damping has no closed form",
+    "damping": "the contact, by damping one point until then, becomes a zone, which has no closed form",
     "hysteretic loss": "the stiffness grows with the frequency, for which there is no closed form",
     "slope": "slopes are no longer small",
-    "shear": "another limit (ends, loads, damping or slopes) comes before shear deformation ceases to matter",
-    "wall": "another limit (ends, loads, damping or slopes) comes before the wall acts as a rigid one",
+    "shear": "reflections, loads, damping or slopes end it before shear has ceased to matter",
+    "wall": "reflections, loads, damping or slopes end it before the wall acts as a rigid one",
     "section": "the section yields",
 }
-BEFORE = {"shear": "shear deformation matters; for the reaction twice as long", "wall": "the wall gives way"}
-"""What a contact does; why the theory ends, and begins late, by the names that the theory has for it."""
+BEFORE = {"shear": "shear deformation matters", "wall": "the wall gives way"}
+REACTION_LATER = "; for the reaction twice as long"  # with shear
+"""Why the theory ends, and begins late, by the names that the theory has for it."""
 
 
 def beam_line(model: str, velocity: float, clearance: float = 0.0) -> str:
@@ -57,10 +58,13 @@ def validity_text(document: dict[str, Any]) -> str:
     why, before = LIMITS[document["limited_by"]], BEFORE.get(document["valid_after"], "")
     if not document["valid_until"]:
         return f"The theory covers no time: {why}."
+    first = document["valid_from"] * (2.0 if document["valid_after"] == "shear" else 1.0)  # of the reaction
+    has_reaction = document["force_until"] > first
+    before += REACTION_LATER * (has_reaction and document["valid_after"] == "shear")
     start = f"from {milliseconds(document['valid_from'])} (before, {before}) " if before else ""
     lines = [f"The theory holds to 2 % {start}until {milliseconds(document['valid_until'])}: then {why}."]
     if document["force_until"] < document["valid_until"]:
-        begin = milliseconds(max(document["force_until"], document["valid_from"]))
+        begin = milliseconds(document["force_until" if has_reaction else "valid_from"])
         lines.append(f"From {begin} on it has no reaction: waves from the ends swing the force.")
     loads = any(document[f"epsilon_{load}"] for load in ("alpha", "psi", "chi", "axial"))
     acting = {"loads": loads, "shear": document["model"] == "timoshenko", "the wall's give": document["wall"]}
@@ -207,11 +211,11 @@ def hits_table(rows: Sequence[Mapping[str, Any]], names: Sequence[str]) -> str:
     cells = [[row[name] if isinstance(row[name], str) else shown(row[name]) for name in names] for row in rows]
     head = ["hit", *(HIT[name] for name in names)]
     table = text_table(head, [[str(number), *line] for number, line in enumerate(cells, 1)])
-    both = (
-        " Where two overlap, velocities, energies and\nmoments are those of both together." if "wall" in names else ""
-    )
-    cut = "" if rows[-1].get("over", True) else "\nThe last hit was not over at the end of the run."
+    both = "\nWhere two overlap, velocities, energies and moments are those of both together." * ("wall" in names)
+    late = "\nThe run ends less than a period of the first mode after its last push: the last hit may not be over."
+    cut = "" if rows[-1].get("over", True) else late
     return (
         f"{table}\nHits are read from the saved instants of one run and have no error bars. Of all but the first, the "
-        f"second digit\nis uncertain. A moment is the largest until the next hit.{both}{cut}"
+        "second digit\nis uncertain. Velocities are those of the centre of mass. A moment is the largest until the "
+        f"next hit.{both}{cut}"
     )

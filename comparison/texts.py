@@ -51,7 +51,7 @@ def prediction_text(document: dict[str, Any]) -> str:
         contact = SHORT_ZONE
     lines = [
         f"{contact} kappa/nu = {document['kappa_over_nu']:.4g} (it spreads below 1).",
-        *["So it is on a rigid wall; this one gives way."] * (document["wall"] is not None),
+        *["This holds for a rigid wall; this wall gives way."] * (document["wall"] is not None),
         beam_line(document["model"], document["velocity"]),
         validity_text(document),
         *("", _instants(document), ""),
@@ -156,7 +156,7 @@ def _hardest(found: dict[str, Any]) -> str:
     if found["peak_force_time"] is None and found.get("peak_force") is not None:
         return "The largest force is not known: it may still rise."
     if found["peak_force_time"] is None:
-        return f"A rigid wall has no largest force; its largest push begins at {milliseconds(found['push_time'])}."
+        return f"A rigid wall has no largest force; its largest impulse begins at {milliseconds(found['push_time'])}."
     when, where = milliseconds(found["peak_force_time"]), found["peak_force_place"]
     return f"The largest force acts at about {when}, on average about {where:.2g} m from the middle."
 
@@ -204,8 +204,8 @@ def bounce_text(found: dict[str, Any], *, verbose: bool = False) -> str:
         "",
         beam_line(found["model"], found["velocity"]),
         "± is the error bar; a band is mean ± standard deviation of runs. Energies are shares of the initial energy",
-        "and the work of the loads, at the last contact: the end of the first hit, after which the beam is off the",
-        "wall for a period of its first mode at least (if it stays there is none). The largest moment and stress are",
+        "and the work of the loads, at the last contact: the end of the first hit, after which the beam stays off the",
+        "wall for at least a period of its first mode. The largest moment and stress are",
         f"those from 0 to {1e3 * found['span'][1]:.4g} ms{', a period of that mode after the last contact' * left}.",
         _hardest(found),
         *(f"Largest {what}, {unit}, {line}." for line in _over_damping(damped, name, scale)),

@@ -15,13 +15,15 @@ const Words = (() => {
   /** What a contact does; contact as the theory, which is without shear, solves it. */
   const verdict = (b, { regime }) => (
     (b.shear && regime === "discrete" ? WORDS.short : WORDS.regimes[regime])
-    + (b.wallStiffness ? " So it is on a rigid wall; this one gives way." : ""));
+    + (b.wallStiffness ? " This holds for a rigid wall; this wall gives way." : ""));
 
   /** When the first instants hold. */
   function holding({ from, until, forceUntil, by, after }, b, { regime }) {
     if (!until) return `The theory covers no time: ${WORDS.limits[by]}.`;
-    const start = after ? `from ${quantity("time", from, 3)} (before, ${WORDS.before[after]}) ` : "";
-    const swings = `From ${quantity("time", Math.max(forceUntil, from), 3)} on `
+    const hasReaction = forceUntil > (after === "shear" ? 2 : 1) * from;
+    const before = WORDS.before[after] + (hasReaction && after === "shear" ? WORDS.later : "");
+    const start = after ? `from ${quantity("time", from, 3)} (before, ${before}) ` : "";
+    const swings = `From ${quantity("time", hasReaction ? forceUntil : from, 3)} on `
       + "it has no reaction: waves from the ends swing the force.";
     const acting = { loads: b.acceleration || b.tension, shear: b.shear, "the wall’s give": b.wallStiffness };
     const left = Object.keys(acting).filter((name) => acting[name]).join(" and ");
