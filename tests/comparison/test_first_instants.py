@@ -8,10 +8,12 @@ import pytest
 
 from benchmarks.figures.moment import FOLDER, KAPPAS, PATHS, MeasuredMoment, measure_moment
 from bent_beam import Impact, ImpactHistory, SimulationError
+from bent_beam.measure.instant import instant
 from bent_beam.measure.moments import first_front
 from bent_beam.measure.reduction import peak_moment
 from bent_beam.meshes import UniformMesh
 from comparison.bouncing import case_of
+from comparison.questions import Question
 from comparison.simulating import simulate_case
 from exudyn_models import ExudynModel
 from exudyn_models.contacts import Penalty
@@ -161,3 +163,14 @@ def test_a_penalty_that_is_chosen_suits_the_run(time: float) -> None:
     found, exact = numbers(impact, time, tables=tables), predict(impact, [time]).times[0]
     assert found["impulse"].known == pytest.approx(exact.impulse, rel=0.01)
     assert found["half_contact_length"].known == pytest.approx(exact.half_contact_length, rel=0.02)
+
+
+def test_a_run_that_is_read_at_a_time_goes_a_tenth_of_it_beyond_and_a_shorter_one_has_no_reaction_then() -> None:
+    impact, method = Impact.whole_beam(2.0, relative_damping=0.02), HermiteFE(mesh=UniformMesh(0.1))
+    question = Question(impact, method, until=0.05)
+    run = question.run(question.run_by)
+    assert run.time[-1] == pytest.approx(0.055) and np.isclose(run.time, 0.05).any()
+    known = instant(run, 0.05).reaction
+    gained = run.impulse_at(np.array([0.045, 0.055]))
+    assert known == pytest.approx((gained[1] - gained[0]) / 0.01) and known > 0.0
+    assert instant(run.until(0.05), 0.05).reaction is None

@@ -217,6 +217,12 @@ def test_pushes_that_act_elsewhere_than_the_motion_says_are_seen_by_their_second
             impulse=np.outer(given, 0.5 * np.isclose(np.abs(x), place)),
         )  # fmt: skip
         assert balance_of(run).second_moment == pytest.approx(off, abs=1e-9)
+    between = WHOLE.replace(damping=0.0, opposite_wall=1.0)
+    shares = {"impulse": 1.5, "opposite_impulse": 0.5}  # what the wall behind gives back counts against the front's
+    walls = {name: run.array("impulse") * share for name, share in shares.items()}
+    moved = {name: run.array(name) for name in ("velocity", "slope", "total_impulse")}
+    both = history_of(time, x, impact=between, symmetry="full", **walls, **moved)
+    assert balance_of(both).second_moment == pytest.approx(off, abs=1e-9)
 
 
 MIDDLE = Impact.whole_beam(1.25, relative_damping=1e-3)  # whose impulses have no second moment to be off

@@ -9,7 +9,7 @@ from page_scripts import evaluated
 from bent_beam.cases import case_from_tables, load_case
 from comparison import predict
 from comparison.doubts import OVERDAMPED, SUNK, doubts
-from comparison.readable import REGIMES, SHORT_ZONE
+from comparison.readable import REGIMES, SHORT_ZONE, validity_text
 
 
 def test_the_page_doubts_a_speed_of_sound_and_a_strain_that_no_material_has_and_the_weight_of_an_added_mass() -> None:
@@ -55,6 +55,23 @@ def test_of_a_contact_that_stays_one_point_the_page_says_what_bentbeam_predict_d
     assert [verdict for verdict, _ in found] == [SHORT_ZONE, REGIMES["discrete"], REGIMES["continuous"]]
     for verdict, text in found:
         assert verdict in str(predict(case_from_tables(tomllib.loads(text)), theory_only=True))
+
+
+def test_page_and_predict_say_alike_when_the_first_instants_have_a_reaction() -> None:
+    """With shear it holds from twice as late on as length and impulse; where waves from the ends swing it by then, at
+    no time."""
+    base = {"limited_by": "slope", "valid_from": 1e-3, "valid_until": 5e-3, "model": "timoshenko", "damping": None}
+    base |= dict.fromkeys(("epsilon_alpha", "epsilon_psi", "epsilon_chi", "epsilon_axial", "wall"), 0.0)
+    later, ends = "; for the reaction twice as long", "it has no reaction"
+    asked = [("shear", 5e-3, later, ""), ("shear", 3e-3, later, "From 3 ms on"), ("shear", 1.9e-3, "", "From 1 ms on")]
+    asked += [("wall", 1.9e-3, "", "From 1.9 ms on"), ("wall", 0.9e-3, "", "From 1 ms on")]
+    expression = """given.map(([after, forceUntil]) => {
+        const holds = {from: 1e-3, until: 5e-3, forceUntil, by: "slope", after};
+        return Words.holding(holds, {...Beam.impact(Beam.START), shear: true}, {regime: "continuous"}); })"""
+    for (after, until, twice, swings), told in zip(asked, evaluated(expression, asked), strict=True):
+        said = validity_text(base | {"valid_after": after, "force_until": until, "regime": "continuous"})
+        for text in (said, told):
+            assert ((later in text), (ends in text)) == (bool(twice), bool(swings)) and swings in text
 
 
 def test_a_last_contact_within_its_bar_is_told() -> None:
