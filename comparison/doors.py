@@ -118,6 +118,10 @@ def sweep(
     fresh : stored runs are ignored.
     Raises ``ValueError`` for what is no case at all; a row that fails is a row with its reason.
     """
+    if not isinstance(case, (str, Path, Mapping)):
+        raise InputError(f"case must be a case file or its tables, whose keys can be varied (got {shortened(case)})")
+    if not isinstance(path, str):
+        raise InputError(f"path must be the name of a path; its settings stand in the case (got {shortened(path)})")
     tables: dict[str, Any] = deepcopy(dict(case)) if isinstance(case, Mapping) else read_toml(Path(case), "case file")
     lay_over(tables, assignments)
     given: dict[str, Sequence[Any]] = {}

@@ -65,6 +65,14 @@ class Mute(MoreauJean):
         (lambda: sweep({}, {"impact.velocity": 3.0}), r"impact.velocity takes its values in a list, .*\(got 3.0\)"),
         (lambda: sweep(TUBE, {"impact.velocity": [1.0, float("nan")]}), "vary: impact.velocity must be"),
         (lambda: sweep(TUBE, {}), "nothing is varied"),
+        (
+            lambda: sweep(load_case(TUBE), {"impact.velocity": [1.0]}),
+            "case must be a case file or its tables, .*got Case",
+        ),
+        (
+            lambda: sweep(TUBE, {"impact.velocity": [1.0]}, HermiteFE()),
+            "path must be the name of a path; .*got HermiteFE",
+        ),
         (lambda: sweep(TUBE, {"impact.velocity": []}), r"vary: impact.velocity has no values \(got \[\]\)"),
         (lambda: predict(TUBE, [0.001, 0.002]), r"times must be a finite number each: predict\(case, 0.001, 0.002\)"),
         (lambda: methods_from_file(TUBE), "tube.toml is a case file"),
