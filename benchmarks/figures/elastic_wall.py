@@ -16,7 +16,7 @@ from theory.wall_prediction import zone_offset
 RATIOS = (0.05, 0.2, 0.5, 1.0, 5.0)
 DAMPINGS = (0.0, 0.1, 0.25, 0.5, 1.0)
 TIME = r"$t/t_k$  (1)"
-UNIT = r"V_0\sqrt{\mu}\,(EIk)^{1/4}"
+UNIT = r"(V_0\sqrt{\mu}\,(EIk)^{1/4})"
 
 
 def draw_force(out: Path) -> list[Path]:

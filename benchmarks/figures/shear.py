@@ -72,11 +72,11 @@ def draw(out: Path) -> list[Path]:
         right.set_yticks([0.3, 0.5, 1.0, 2.0, 5.0], labels=["0.3", "0.5", "1", "2", "5"])
         right.set_xticks([0.1, 1.0, 10.0], labels=["0.1", "1", "10"])
         right.tick_params(which="minor", labelleft=False)
-        for axis, name in ((left, r"$M_{\max}/V_0\sqrt{EI\mu}$  (1)"), (middle, r"$e$  (1)")):
+        for axis, name in ((left, r"$M_{\max}/(V_0\sqrt{EI\mu})$  (1)"), (middle, r"$e$  (1)")):
             axis.set(xscale="log", xlabel=r"slenderness $L/i$  (1)", ylabel=name)
             axis.set_xticks([25, 50, 100, 200, 500], labels=["25", "50", "100", "200", "500"])
             axis.tick_params(which="minor", labelbottom=False)
-        right.set(xlabel=r"$t/t_s$  (1)", ylabel=r"$R/V_0\sqrt{\kappa_sGA\,\mu}$  (1)")
+        right.set(xlabel=r"$t/t_s$  (1)", ylabel=r"$R/(V_0\sqrt{\kappa_sGA\,\mu})$  (1)")
         last.set(xscale="log", xlabel=r"$t/t_s$  (1)", ylabel="simulation over theory $-$ 1  (%)")
         last.set(ylim=(-5.5, 4.0), xlim=(1.7, 25.0))
         last.set_xticks([2.0, 5.0, 10.0, 20.0], labels=["2", "5", "10", "20"])
