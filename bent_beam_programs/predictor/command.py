@@ -12,7 +12,7 @@ def predictor(
     out: Annotated[Path, typer.Option(help="The page to write.")] = Path("predictor.html"),
     overwrite: Overwrite = False,
 ) -> None:
-    """Write the predictor: one web page that simulates an impact and shows the theory, offline.
+    """Write a web page that simulates an impact, offline.
 
     Example: bentbeam predictor --out predictor.html
     """
