@@ -14,7 +14,7 @@ from bent_beam.measure.whole_impact import SHORTEST_SEPARATION, WINDOW, WholeImp
 from bent_beam.method import LONGEST_OF_WALL, ON_WALL, settings_of, time_on_wall
 from bent_beam.versions import versions
 from comparison.doubts import doubts, energy_residual, numerical_loss, told_by
-from comparison.readable import folder, write_answer
+from comparison.readable import folder, milliseconds, write_answer
 from comparison.runs import Runs
 from comparison.texts import bounce_text
 from comparison.whole_numbers import MAY_RISE, WHOLE
@@ -156,8 +156,14 @@ class Bounce:
             )
         elif not self.left:
             found.append(f"a run ended with the beam at the wall: {stays}")
-        elif pressed or self.outcome.again or (self.outcome.may_return and turns):
-            back = "the beam comes back" if self.outcome.again else "the beam may come back"
+        elif self.outcome.again:
+            found.append(
+                "the beam comes back to the wall: restitution, last contact and in bounce impulse and energies are of "
+                f"the first hit, largest values of all hits until {milliseconds(self.span[1])}; bentbeam bounce --hits "
+                "3 lists them"
+            )
+        elif pressed or (self.outcome.may_return and turns):
+            back = "the beam may come back"
             if pressed or (self.impact.supported and self.outcome.may_return):
                 back = "the loads bring the beam back"
             found.append(
@@ -204,6 +210,7 @@ class Bounce:
             "momentum_residual": balance.momentum,
             **{name: getattr(balance, name) for name in ("gap_of_push", "penetration", "pull")},
             "left": self.left,
+            "again": self.outcome.again,
             "steps": self.runs.run.steps,
             "seconds": self.seconds,
             "seed": band[1] if band else None,

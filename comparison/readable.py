@@ -211,7 +211,8 @@ def hits_table(rows: Sequence[Mapping[str, Any]], names: Sequence[str]) -> str:
     cells = [[row[name] if isinstance(row[name], str) else shown(row[name]) for name in names] for row in rows]
     head = ["hit", *(HIT[name] for name in names)]
     table = text_table(head, [[str(number), *line] for number, line in enumerate(cells, 1)])
-    both = "\nWhere two overlap, velocities, energies and moments are those of both together." * ("wall" in names)
+    behind = any(row.get("wall") == "opposite" for row in rows)
+    both = "\nWhere two overlap, velocities, energies and moments are those of both together." * behind
     late = "\nThe run ends less than a period of the first mode after its last push: the last hit may not be over."
     cut = "" if rows[-1].get("over", True) else late
     return (

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from typing import Any
 
+from bent_beam.free_flight import LOWEST_PERIOD
 from bent_beam.measure.numbers import Number
 from comparison.readable import (
     LIMITS,
@@ -198,15 +199,18 @@ def bounce_text(found: dict[str, Any], *, verbose: bool = False) -> str:
     name, what, unit = largest_of(found["peak_stress"])
     damped, left = found["over_damping"] or [], str(number_from(found["last_contact"])) != "-"
     scale, unit = unit_for(unit, [row[name]["value"] for row in damped])
-    columns = 4 if verbose else 3
+    columns, period = 4 if verbose else 3, milliseconds(LOWEST_PERIOD * found["si"]["time_unit"])
+    ends = ", that period after the last contact" * left
+    if found["again"]:
+        ends = ", in which the beam hits more than once"
     lines = [
         text_table(["", "value", "", "beam's units"][:columns], [row[:columns] for row in rows]),
         "",
         beam_line(found["model"], found["velocity"]),
         "± is the error bar; a band is mean ± standard deviation of runs. Energies are shares of the initial energy",
         "and the work of the loads, at the last contact: the end of the first hit, after which the beam stays off the",
-        "wall for at least a period of its first mode. The largest moment and stress are",
-        f"those from 0 to {1e3 * found['span'][1]:.4g} ms{', a period of that mode after the last contact' * left}.",
+        f"wall for at least {period}, a period of a free beam's first mode. Largest moment and stress are",
+        f"those from 0 to {1e3 * found['span'][1]:.4g} ms{ends}.",
         _hardest(found),
         *(f"Largest {what}, {unit}, {line}." for line in _over_damping(damped, name, scale)),
         *(_checks(found) if verbose else []),
