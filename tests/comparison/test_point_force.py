@@ -9,7 +9,7 @@ import pytest
 
 from bent_beam import Impact
 from bent_beam.loads import SIMULATED, Load, Place
-from bent_beam.meshes import NodesMesh
+from bent_beam.meshes import NodesMesh, UniformMesh
 from exudyn_models import ExudynModel
 from hermite_fe import HermiteFE
 
@@ -56,6 +56,20 @@ def test_force_and_wall_move_and_turn_the_beam_and_both_paths_agree(beam, alike)
             turned = np.trapezoid(x * v, x) + history.array("impulse")[-1] @ history.contact_positions(-1)
             assert turned == pytest.approx(given * beam.push_at, rel=1e-2)
     assert found[0] == pytest.approx(found[1], rel=alike, abs=1e-2)
+
+
+@pytest.mark.parametrize("path", [HermiteFE, ExudynModel])
+def test_a_force_acts_alike_in_whatever_units_it_is_given(path) -> None:
+    """Lengths are three, times two and masses five times as large."""
+    one = pushed(2.0, -0.4)
+    force, place = 2.0 * 5.0 * 3.0 / 4.0, -0.4 * 3.0
+    other = Pushed(5.0 * 27.0 / 4.0, 5.0 / 3.0, 6.0, 0.5 / 3.0, 1.5, damping=0.02, push=force, push_at=place)
+    impulses = []
+    for beam in (one, other):
+        mesh = UniformMesh(0.05 * beam.length)
+        run = path(mesh=mesh).for_whole_beam(beam).simulate(beam, end_time=0.1 * beam.slow_time_scale, save=10)
+        impulses.append(run.array("total_impulse"))
+    assert impulses[1] == pytest.approx(7.5 * impulses[0], rel=1e-6, abs=1e-6)
 
 
 @pytest.mark.verify

@@ -10,7 +10,7 @@ from bent_beam.measure.estimators import SIDE, leading_order
 from bent_beam.measure.moments import first_front, moments
 from self_similar_fe import ExpandingMesh, SelfSimilarFE
 from self_similar_fe.run import Run, simulate_expanding
-from self_similar_fe.similarity import similarity
+from self_similar_fe.similarity import similarity, worst_of_runs
 from theory import contact_parameters
 
 EXACT = contact_parameters(0.5)
@@ -129,6 +129,13 @@ def test_the_wall_pulls_in_no_step_where_contacts_wander_and_widened_tolerances_
     monkeypatch.setattr("self_similar_fe.similarity.ONE_BY_ONE", -1)
     worse = SelfSimilarFE(mesh=mesh).simulate(pulled, end_time=0.05)
     assert worse.settings["widened"] > 100.0 and worse.settings["largest_pull"] > 1e-4 and "pulls" in worse.warnings[-1]
+
+
+def test_of_neighbours_that_are_wrong_alike_the_worst_is_exchanged_and_two_are_both() -> None:
+    excess = np.array([-9.0, 0.1, 0.5, 0.2, 0.3, -9.0, 0.4, 0.2, 0.3, 0.7, 0.1, -9.0])
+    active = np.array([True] * 8 + [False] * 4)  # the last three are wrong the other way
+    chosen = np.array([0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 0, 0], bool)
+    assert np.array_equal(worst_of_runs(excess, active), chosen)
 
 
 BREAKS = [*({name: 1e-3} for name in ("damping", "rotation", "first_touch", "opposite_wall", "shear_stiffness"))]
