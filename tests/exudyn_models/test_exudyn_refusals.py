@@ -211,3 +211,14 @@ def test_a_contact_without_a_consistent_state_is_counted_and_ends():
     """Closed it pulls, open it has entered the wall."""
     settling = settled(Pressed(-np.eye(1), np.ones(1)))
     assert (settling.cycles, settling.unsettled) == (1, 0)
+
+
+def test_a_spectral_radius_from_full_to_no_damping_is_taken_and_none_beyond() -> None:
+    """0 ≤ ρ∞ ≤ 1: averages of second order, γ = ½ + α_f − α_m, to which a stiff force is kept as −ρ∞."""
+    for radius in (0.0, 0.3, 1.0):
+        found = GeneralizedAlpha(spectral_radius=radius).averages()
+        assert found.gamma == pytest.approx(0.5 + found.alpha_f - found.alpha_m)
+        assert found.alpha_f / (1.0 - found.alpha_f) == pytest.approx(radius)  # f⁺(1 − α_f) + f α_f = 0
+    for radius in (-1e-9, 1.0 + 1e-9):
+        with pytest.raises(ValueError, match=r"spectral_radius must lie in \[0, 1\]"):
+            GeneralizedAlpha(spectral_radius=radius)
