@@ -214,9 +214,9 @@ def followed_hits(impact: Impact, method: Method, count: int, *, first: ImpactHi
     while True:
         run = chosen.simulate(impact, end_time=end, save=separation_times(impact, end, INSTANTS))
         found = hits(run)
-        over = [hit for hit in found if hit.over]
+        over = [hit for hit in found if end - hit.end >= period]  # in which its largest moment may still come
         rests = len(over) < len(found) and end - found[-1].begin >= at_rest
-        gone = over and impact.net_load <= 0.0 and not may_return(run)
+        gone = over and len(over) == len(found) and impact.net_load <= 0.0 and not may_return(run)
         longest = followed_until(impact, over)
         flight = _flights(impact, over[-1:])
         if len(over) >= count or rests or end >= longest or gone:

@@ -2,11 +2,14 @@
 
 import dataclasses
 import math
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 from histories import pushed_until
 
+from bent_beam import ImpactHistory
 from bent_beam.free_flight import LOWEST_PERIOD
 from bent_beam.measure.whole_impact import hits
 from bent_beam.meshes import UniformMesh
@@ -56,6 +59,22 @@ def test_a_free_beam_that_rocks_away_slowly_has_the_numbers_of_its_first_hit_and
     restitution, pressed = found.numbers["restitution"], impact.replace(acceleration=1e-9)
     held = bounce(pressed, HermiteFE(mesh=UniformMesh(0.1))).numbers["restitution"]
     assert abs(restitution.known - held.known) <= restitution.spread + held.spread
+
+
+def test_the_last_hit_of_a_beam_that_cannot_return_is_followed_for_a_period_and_listed() -> None:
+    """It ends 0.45 T* before the first of the ends to which the run is carried."""
+    ends: list[float] = []
+
+    def record(impact: Any = None, *, end_time: float = 3.0, save: Any = None) -> ImpactHistory:
+        ends.append(end_time)
+        energy = np.full(round(20 * end_time) + 1, 0.55)  # little more than its flight has
+        return pushed_until(0.3, last=end_time, again=1.5, kinetic_energy=energy)
+
+    method: Any = SimpleNamespace(simulate=record)
+    found, why = followed_hits(record().impact, method, 3, first=record())
+    assert [hit.begin for hit in found] == pytest.approx([0.0, 1.5], abs=0.05)
+    assert why.startswith("then the beam is off for good")
+    assert ends[-2] - found[1].end < LOWEST_PERIOD < ends[-1] - found[1].end
 
 
 def test_largest_values_of_a_free_beam_that_comes_back_are_those_of_all_its_hits_and_the_answer_says_so() -> None:
