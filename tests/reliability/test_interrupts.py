@@ -189,7 +189,8 @@ def test_an_interrupt_leaves_whole_files_and_says_how_to_go_on(name, tmp_path):
 @pytest.mark.parametrize("name", SOME)
 def test_a_full_disk_is_told_by_the_name_of_the_file_and_takes_none_of_those_before(name, tmp_path):
     """No file of this process and its children may grow beyond 100 bytes: kernels and runs cannot be kept either."""
-    full = "import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100))\n"
+    full = "import os, resource, sys\nsys.dont_write_bytecode = True\nos.environ['PYTHONDONTWRITEBYTECODE'] = '1'\n"
+    full += "resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100))\n"  # Python would keep modules cut short, too
     process = command(name, tmp_path, full)
     _, err = process.communicate(timeout=500)
     assert process.returncode in (2, 3) and "Traceback" not in err, err

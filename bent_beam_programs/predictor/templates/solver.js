@@ -130,9 +130,10 @@ const Solver = (() => {
       found.left = p.load || p.tension ? true : gone(m, p);
       if (found.left) break;
     }
-    const hit = first || found, over = found.left || first !== null;
+    const end = frames[frames.length - 1].t, quiet = found.impulse > 0 && end - found.lastContact >= PERIOD;
+    const hit = first || found, over = found.left || first !== null || quiet;
     const restitution = over ? hit.impulse / 2 - (p.load + p.pull) * hit.lastContact - 1 : null;
-    const end = frames[frames.length - 1].t, until = min(found.lastContact + PERIOD, end);
+    const until = min(found.lastContact + PERIOD, end);
     const late = { moment: found.time > end - PERIOD, force: found.pressed > end - PERIOD };
     const lastContact = over ? hit.lastContact : null;
     const { begin, apart, earlier } = hit; // of the last contact, and the impulse before it
