@@ -102,8 +102,7 @@ class ImpactHistory:
     @classmethod
     def of(cls, dataset: xr.Dataset) -> ImpactHistory:
         """The history that :attr:`dataset` shows."""
-        named = ((str(name), one) for name, one in dataset.variables.items())
-        parts = {name: Variable(tuple(map(str, one.dims)), one.values, one.attrs) for name, one in named}
+        parts = {str(n): Variable(tuple(map(str, v.dims)), v.values, v.attrs) for n, v in dataset.variables.items()}
         return cls(parts, dataset.attrs)
 
     def with_warnings(self, warnings: Sequence[str]) -> ImpactHistory:
@@ -211,8 +210,9 @@ class ImpactHistory:
 
     @property
     def is_whole(self) -> bool:
-        """Whether all of the beam is modelled; an arc is somewhat shorter along x."""
-        return self.modelled_length >= 0.9 * self.impact.length
+        """Whether all of the beam is modelled, of an arc by its chords."""
+        rise = np.diff(self.array("gap", 0)) * ((self.settings.get("geometry") or {}).get("kind") == "TrueGeometry")
+        return 2.0 / self.sides * float(np.hypot(np.diff(self.positions(0)), rise).sum()) >= 0.99 * self.impact.length
 
     def impulse_at(self, time: Any) -> Any:
         """Impulse of the wall since the first touch, N s, at ``time``, s, linear between saved instants."""

@@ -72,7 +72,10 @@ class Method(Protocol):
 
 def checked_times(save: Any, end: float) -> NDArray[np.float64]:
     """Times to save, s: finite, increasing, from 0 to ``end``; ``ValueError`` otherwise."""
-    times = np.asarray(save, float)
+    try:
+        times = np.asarray(save, float)
+    except (TypeError, ValueError):
+        times = np.array(np.nan)
     if times.ndim != 1 or times.size < 1 or not np.all(np.isfinite(times)):
         raise InputError("save must be a whole number, or a list of finite times")
     if np.any(np.diff(times) <= 0.0) or times[0] < 0.0 or times[-1] > end * (1.0 + 1e-9):

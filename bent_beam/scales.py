@@ -29,10 +29,10 @@ class Scales(Part):
         Load("m/s²", "a₀ at the first touch; in a case file free flight unless given", group="alpha", powers=(0, 2)),
     ] = 0.0
     curvature_rate: Annotated[
-        float, Load("1/(m s)", "c₀ = ∂³y₀/∂x²∂t; free ends lack its moment", group="chi", powers=(2, 1))
+        float, Load("1/(m s)", "c₀ = ∂³y₀/∂x²∂t; its moment does not act at free ends", group="chi", powers=(2, 1))
     ] = 0.0
     fourth_derivative: Annotated[
-        float, Load("1/m³", "q₀ = ∂⁴y₀/∂x⁴; free ends lack its moment", group="psi", powers=(4, 0))
+        float, Load("1/m³", "q₀ = ∂⁴y₀/∂x⁴; its moment does not act at free ends", group="psi", powers=(4, 0))
     ] = 0.0
     section_height: Annotated[
         float, Quantity("m", "d, for EA = 12 EI/d² on the Exudyn path; of a [section] √12 radii of gyration", above=0.0)
@@ -72,7 +72,7 @@ class Scales(Part):
         float | None, Place("m", "where the wall begins, from the middle", instead=SIMULATED, outside=GOES_ON)
     ] = None
     wall_to: Annotated[
-        float | None, Place("m", "where it ends; equal to from: a stop", instead=SIMULATED, outside=GOES_ON)
+        float | None, Place("m", "where it ends; a stop where it equals from", instead=SIMULATED, outside=GOES_ON)
     ] = None
     left_end: Annotated[str, Feature("", "how the end at x = −L/2 is held", choices=ENDS, instead=SIMULATED)] = "free"
     right_end: Annotated[str, Feature("", "how the end at x = L/2 is held", choices=ENDS, instead=SIMULATED)] = "free"

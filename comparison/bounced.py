@@ -152,15 +152,15 @@ class Bounce:
             found.append(
                 f"the loads keep the beam on the wall: {stays} (flights shorter than "
                 f"{1e3 * LOWEST_PERIOD * self.units['time']:.3g} ms are part of a hit; for that of the impact alone "
-                "give impact.velocity in place of drop_height, and no load that presses)"
+                "leave out loads that press, and give impact.velocity in place of a drop_height)"
             )
         elif not self.left:
             found.append(f"a run ended with the beam at the wall: {stays}")
         elif self.outcome.again:
             found.append(
-                "the beam comes back to the wall: restitution, last contact and in bounce impulse and energies are of "
-                f"the first hit, largest values of all hits until {milliseconds(self.span[1])}; bentbeam bounce --hits "
-                "3 lists them"
+                "the beam comes back to the wall: restitution and last contact are of the first hit, and so are "
+                f"impulse and energies of bounce; largest values are of all hits until {milliseconds(self.span[1])}; "
+                "bentbeam bounce --hits 3 lists them"
             )
         elif pressed or (self.outcome.may_return and turns):
             back = "the beam may come back"

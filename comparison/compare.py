@@ -41,9 +41,11 @@ def compare_histories(a: ImpactHistory, b: ImpactHistory) -> dict[str, Any]:
     of the first.
     """
     end = min(float(a.time[-1]), float(b.time[-1]))
-    times = a.time[(a.time >= b.time[0]) & (a.time <= end * (1.0 + 1e-9))]
-    if not times.size:
-        begin = max(float(h.time[0]) for h in (a, b))
+    begin = max(float(a.time[0]), float(b.time[0]))
+    times = a.time[(a.time >= begin) & (a.time <= end * (1.0 + 1e-9))]
+    if not times.size:  # a long interval of the first may hold all of the second
+        times = np.array([begin, end])
+    if begin > end:
         raise InputError(f"the two runs have no time in common: one ends at {end:.6g} s, one begins at {begin:.6g} s")
     numbers: dict[str, list[float]] = {"time": [float(a.time[-1]), float(b.time[-1])]}
     apart: dict[str, float | None] = {}

@@ -77,8 +77,10 @@ def match(
 
     first_order : (α, ψ, χ[, N]) each; none: the leading order. jobs : processes. fresh : stored runs are ignored.
     """
-    ratios: Any = [kappa_over_nu] if np.ndim(kappa_over_nu) == 0 else kappa_over_nu  # type: ignore[arg-type]
-    asked = questions([made(one) for one in methods or PATHS], ratios, first_order, refine)
+    many = isinstance(kappa_over_nu, Iterable) and not isinstance(kappa_over_nu, (str, np.ndarray))
+    ratios: Any = kappa_over_nu if many else np.atleast_1d(kappa_over_nu).tolist()  # type: ignore[arg-type]
+    firsts = [one.tolist() if isinstance(one, np.ndarray) else one for one in first_order]
+    asked = questions([made(one) for one in methods or PATHS], ratios, firsts, refine)
     return match_all(asked, store=RunStore.usual(fresh), jobs=jobs)
 
 

@@ -103,7 +103,7 @@ class Question:
         chosen = self._chosen(self.method)
         if self.late:
             check_lengths(chosen, self.impact, LONGEST_STEP * self.impact.slow_time_scale, "for the whole beam")
-        elif self.until is not None:
+        elif self.until is not None and ERROR_BARS[self.error_bars]:
             check_lengths(chosen, self.impact, self.until / FEWEST, f"until {self.until:.6g} s")
         return chosen
 

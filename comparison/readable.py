@@ -43,7 +43,7 @@ LIMITS = {
     "section": "the section yields",
 }
 BEFORE = {"shear": "shear deformation matters", "wall": "the wall gives way"}
-REACTION_LATER = "; for the reaction twice as long"  # with shear
+REACTION_LATER, NO_REACTION = "; for the reaction twice as long", "Its reaction is within 2 % at no time."  # with shear
 """Why the theory ends, and begins late, by the names that the theory has for it."""
 
 
@@ -58,13 +58,15 @@ def validity_text(document: dict[str, Any]) -> str:
     why, before = LIMITS[document["limited_by"]], BEFORE.get(document["valid_after"], "")
     if not document["valid_until"]:
         return f"The theory covers no time: {why}."
-    first = document["valid_from"] * (2.0 if document["valid_after"] == "shear" else 1.0)  # of the reaction
-    has_reaction = document["force_until"] > first
-    before += REACTION_LATER * (has_reaction and document["valid_after"] == "shear")
+    late = document["valid_after"] == "shear" and document["force_until"] > document["valid_from"]
+    holds = late and document["force_until"] > 2.0 * document["valid_from"]  # the reaction, too
+    before += REACTION_LATER * holds
     start = f"from {milliseconds(document['valid_from'])} (before, {before}) " if before else ""
     lines = [f"The theory holds to 2 % {start}until {milliseconds(document['valid_until'])}: then {why}."]
+    if late and not holds:
+        lines.append(NO_REACTION)
     if document["force_until"] < document["valid_until"]:
-        begin = milliseconds(document["force_until" if has_reaction else "valid_from"])
+        begin = milliseconds(max(document["force_until"], document["valid_from"]))
         lines.append(f"From {begin} on it has no reaction: waves from the ends swing the force.")
     loads = any(document[f"epsilon_{load}"] for load in ("alpha", "psi", "chi", "axial"))
     acting = {"loads": loads, "shear": document["model"] == "timoshenko", "the wall's give": document["wall"]}

@@ -184,7 +184,7 @@ def questions(
         if not given:
             raise InputError(f"{name} must have a value (got none)")
     for first in firsts:
-        if not isinstance(first, Sequence) or len(first) not in (3, 4):
+        if isinstance(first, str) or not isinstance(first, Sequence) or len(first) not in (3, 4):
             raise InputError(f"first_order takes alpha, psi, chi and, if there is one, N each (got {shortened(first)})")
     for name, values in (("kappa_over_nu", kappas), ("first_order", asked), ("refine", refines)):
         if len({tuple(value) if isinstance(value, Sequence) else value for value in values}) < len(values):

@@ -36,6 +36,15 @@ ENERGIES = {
     "wall": "energy in the springs of wall or contact",
     "defect": "energy residual",
 }
+LEFT = (
+    "± is the error bar; a band is mean ± standard deviation of runs. Energies are shares of the initial energy",
+    "and the work of the loads, at the last contact. This is the end of the first hit: then the beam stays off the",
+    "wall for at least a period of a free beam's first mode. Largest moment and stress are",
+)
+STAYS = (
+    "± is the error bar; a band is mean ± standard deviation of runs. The first hit is not over: it has no last",
+    "contact, no rebound and no energies after it. Largest moment and stress are",
+)
 OF_CONTACT = {"lift": "lift of the zone over V0 t", "pull": "largest pull over largest push"}
 OF_BALANCE = {
     "energy_residual": "the same over what there was",
@@ -200,16 +209,12 @@ def bounce_text(found: dict[str, Any], *, verbose: bool = False) -> str:
     damped, left = found["over_damping"] or [], str(number_from(found["last_contact"])) != "-"
     scale, unit = unit_for(unit, [row[name]["value"] for row in damped])
     columns, period = 4 if verbose else 3, milliseconds(LOWEST_PERIOD * found["si"]["time_unit"])
-    ends = ", that period after the last contact" * left
-    if found["again"]:
-        ends = ", in which the beam hits more than once"
+    ends = ", in which the beam hits more than once" if found["again"] else f", {period} after the last contact" * left
     lines = [
         text_table(["", "value", "", "beam's units"][:columns], [row[:columns] for row in rows]),
         "",
         beam_line(found["model"], found["velocity"]),
-        "± is the error bar; a band is mean ± standard deviation of runs. Energies are shares of the initial energy",
-        "and the work of the loads, at the last contact: the end of the first hit, after which the beam stays off the",
-        f"wall for at least {period}, a period of a free beam's first mode. Largest moment and stress are",
+        *(LEFT if left else STAYS),
         f"those from 0 to {1e3 * found['span'][1]:.4g} ms{ends}.",
         _hardest(found),
         *(f"Largest {what}, {unit}, {line}." for line in _over_damping(damped, name, scale)),

@@ -286,7 +286,7 @@ def unresolved_at_end(history: ImpactHistory, found: Moments) -> float:
 
 
 def element_beside(history: ImpactHistory, k: int, front: float) -> float:
-    """Length of the element ``front`` m from the first touch, on the side with a node there: a half length's error."""
+    """Length of the element ``front`` m from the first touch, with a node there: by which it may be off."""
     nodes, touch = history.positions(k), history.impact.first_touch
     sides = (touch + front, touch - (1.0 - 1e-9) * front)[: history.sides]  # at a node the inner element
     inside = [x for x in sides if nodes[0] <= x <= nodes[-1]]

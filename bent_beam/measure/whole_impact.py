@@ -231,7 +231,7 @@ def _grouped(contacts: list[tuple[int, int, str]], impact: Impact, time: Array) 
 
 
 def _velocity(history: ImpactHistory, k: int, time: float) -> float:
-    """Of the centre of mass, into the wall, m/s: at saved instant ``k``, or at ``time``, s, beside its last push."""
+    """Velocity of the centre of mass into the wall, m/s: at saved instant ``k``, or at ``time``, s, beside its push."""
     impact, x = history.impact, history.positions(k)
     if impact.supported:  # by forces that no history holds, and which change it between a push and the instant after
         two = slice(k, min(k + 2, history.time.size))
@@ -295,6 +295,6 @@ def hits(history: ImpactHistory) -> list[Hit]:
         has, lost, pushed = float(energy[k] + work[k]), float(energy[i] - energy[k]), float(given.sum())
         until = float(time[max(later, k)])  # of two walls one may push while the other does
         moment = peak_moment(history, until, since=i).moment if "largest_moment" in history else None
-        over = group is not groups[-1] or has_left(history)
+        over = has_left(history) or (group is not groups[-1] and later >= k)
         found.append(Hit(wall, float(time[i]), end, place, pushed, before, after, has, lost, moment, over))
     return found

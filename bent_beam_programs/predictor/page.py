@@ -19,7 +19,7 @@ from bent_beam.method import LONGEST, LONGEST_OF_WALL, ON_WALL
 from bent_beam_programs.predictor.coefficients import coefficients
 from comparison.bouncing import ABOUT, DAMPING_RATIOS, RETURNS
 from comparison.doubts import LEAST_RESTITUTION, OVERDAMPED, SOUND, STEEP, STRAIGHTENED, STRETCHED, STUBBY, SUNK, WIDE
-from comparison.readable import BEAMS, BEFORE, LIMITS, REACTION_LATER, REGIMES, SHORT_ZONE
+from comparison.readable import BEAMS, BEFORE, LIMITS, NO_REACTION, REACTION_LATER, REGIMES, SHORT_ZONE
 from comparison.runs import CHATTER, FLATTEST, LEAST, LEAST_LIGHT, LIGHT
 from hermite_fe import whole_beam
 from theory import contact_parameters, damped_point, shear, validity, wall_prediction
@@ -29,8 +29,8 @@ TEMPLATES = Path(__file__).parent / "templates"
 MODEL = ("theory.js", "point.js", "limits.js", "beam.js", "instants.js", "case.js")
 SIMULATION = ("elements.js", "contact.js", "solver.js", "answer.js", "worker.js")  # of the workers
 PAGE = ("answer.js", "draw.js", "form.js", "words.js", "plots.js", "motion.js", "view.js")
-WORDS = {"regimes": REGIMES, "short": SHORT_ZONE, "limits": LIMITS, "before": BEFORE, "later": REACTION_LATER,
-         "beams": BEAMS}  # fmt: skip
+WORDS = {"regimes": REGIMES, "short": SHORT_ZONE, "limits": LIMITS, "before": BEFORE, "beams": BEAMS,
+         "later": REACTION_LATER, "never": NO_REACTION}  # fmt: skip
 """What ``bentbeam predict`` says of contact, theory and beam."""
 DOUBTS = {"wide": WIDE, "least_restitution": LEAST_RESTITUTION, "steep": STEEP, "stubby": STUBBY,
           "straightened": STRAIGHTENED, "sound": SOUND, "stretched": STRETCHED,

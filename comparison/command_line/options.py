@@ -76,8 +76,8 @@ Methods = Annotated[
 ErrorBars = Annotated[
     str,
     typer.Option(
-        help="quick: one more run, of half the resolution. thorough: also one of twice. drift: none, but the drift "
-        "within the run. Later than 0.003 T* simulate adds runs of its own (see the guide)."
+        help="quick: one more run, of half the resolution. thorough: also one of twice. drift: no further run. "
+        "Later than 0.003 T* simulate adds runs of its own (see the guide)."
     ),
 ]
 Refine = Annotated[

@@ -71,3 +71,12 @@ def test_the_first_force_of_a_history_that_begins_late_is_a_mean_since_the_first
     assert late.force == pytest.approx([5.0, 10.0])
     assert late.impulse_at([0.0, 1e-3, 3e-3]) == pytest.approx([0.0, 0.005, 0.02])
     assert small().force == pytest.approx([0.0, 0.5, 0.5])
+
+
+@pytest.mark.parametrize(("share", "whole"), [(1.0, True), (0.97, False)])
+def test_an_arc_of_true_geometry_is_whole_by_its_own_length(share, whole) -> None:
+    """Turned by 0.9 at its ends it is 13 % shorter along x."""
+    angle, impact = 0.9 * share * np.linspace(0.0, 1.0, 21), Impact.whole_beam(0.9)
+    run = history_of([0.0, 1.0], np.sin(angle) / 0.9, impact=impact, gap=np.tile((1.0 - np.cos(angle)) / 0.9, (2, 1)))
+    along = replace(run, attrs={**run.attrs, "settings": '{"geometry": {"kind": "TrueGeometry"}}'})
+    assert along.is_whole == whole and not run.is_whole

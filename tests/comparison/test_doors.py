@@ -133,6 +133,8 @@ def test_runs_without_a_time_in_common_are_not_compared() -> None:
     for pair in ((one, other), (other, one)):
         with pytest.raises(ValueError, match=r"no time in common: one ends at 0.1 s, one begins at 0.5 s"):
             compare_histories(*pair)
+    around, within = (history_of(time, [0.0, 0.5, 1.0]) for time in ([0.0, 1.0], [0.2, 0.8]))
+    assert compare_histories(around, within)["end"]["time"] == [1.0, 0.8]
 
 
 def test_of_two_runs_of_the_whole_beam_both_halves_are_compared_and_drawn() -> None:

@@ -105,8 +105,27 @@ def test_a_match_on_too_few_elements_is_refused() -> None:
     assert row.refused and "mesh has 2 elements in a half beam of 500 m, and 4 are the fewest" in row.reason
 
 
+def test_ratios_come_in_any_iterable_and_loads_as_arrays() -> None:
+    for ratios in (0.5, np.float64(0.5), np.array(0.5), {0.5}, (one for one in (0.5,)), np.array([0.5])):
+        (row,) = match(
+            HermiteFE(mesh=UniformMesh(250.0)), kappa_over_nu=ratios, first_order=[np.array([4.0, 0.0, 0.0])]
+        )
+        assert (row.kappa_over_nu, row.alpha) == (0.5, 4.0)
+    for loads in (["400"], [(4.0, 0.0)]):
+        with pytest.raises(InputError, match="first_order takes alpha, psi, chi"):
+            match(HermiteFE(), kappa_over_nu=0.5, first_order=loads)
+
+
+def test_steps_of_which_no_other_run_tells_the_error_are_taken_where_none_is_asked() -> None:
+    tables = ["beam.model=euler_bernoulli", "hermite.integrator.kind=moreau_jean", "hermite.integrator.time_step=2e-5"]
+    case = load_case(TUBE, [*tables, "run.end_time=5e-5"])
+    assert simulate_case(case, "hermite", until=5e-5, error_bars="drift").numbers["impulse"].bar is None
+    with pytest.raises(InputError, match="time_step must be at most"):
+        simulate_case(case, "hermite", until=5e-5)
+
+
 @pytest.mark.parametrize("method", [HermiteFE(), ExudynModel(), SelfSimilarFE()], ids=lambda one: one.path)
-@pytest.mark.parametrize("save", [[0.05, 0.05], [0.1, 0.0], [[0.1]], True, 1.5])
+@pytest.mark.parametrize("save", [[0.05, 0.05], [0.1, 0.0], [[0.1]], ["a"], True, 1.5])
 def test_instants_to_save_are_a_whole_number_or_times_that_increase(method, save) -> None:
     with pytest.raises(InputError, match="save must "):
         method.simulate(Impact.dimensionless(0.5), end_time=0.1, save=save)

@@ -20,10 +20,10 @@ const Words = (() => {
   /** When the first instants hold. */
   function holding({ from, until, forceUntil, by, after }, b, { regime }) {
     if (!until) return `The theory covers no time: ${WORDS.limits[by]}.`;
-    const hasReaction = forceUntil > (after === "shear" ? 2 : 1) * from;
-    const before = WORDS.before[after] + (hasReaction && after === "shear" ? WORDS.later : "");
+    const late = after === "shear" && forceUntil > from, holds = late && forceUntil > 2 * from; // the reaction, too
+    const before = WORDS.before[after] + (holds ? WORDS.later : "");
     const start = after ? `from ${quantity("time", from, 3)} (before, ${before}) ` : "";
-    const swings = `From ${quantity("time", hasReaction ? forceUntil : from, 3)} on `
+    const swings = `From ${quantity("time", Math.max(forceUntil, from), 3)} on `
       + "it has no reaction: waves from the ends swing the force.";
     const acting = { loads: b.acceleration || b.tension, shear: b.shear, "the wall’s give": b.wallStiffness };
     const left = Object.keys(acting).filter((name) => acting[name]).join(" and ");
@@ -31,7 +31,7 @@ const Words = (() => {
       ? " Its half contact is within 2 % only without loads and damping." : "";
     return `The theory holds to 2 % ${start}until ${quantity("time", until, 3)}: then ${WORDS.limits[by]}.`
       + (left && ` Its moment leaves out ${left}.`) + point
-      + (forceUntil < until ? ` ${swings}` : "");
+      + (late && !holds ? ` ${WORDS.never}` : "") + (forceUntil < until ? ` ${swings}` : "");
   }
 
   /** The theory's numbers at the end of its range. */
