@@ -1,8 +1,7 @@
 """The record of a run in SI units, the same for every path; as an ``xarray.Dataset`` for those who ask for one.
 
 Dimensions: ``time`` (the saved instants), ``x`` (nodes) and ``contact`` (contact points). ``bent_beam/files.py`` lists
-those that are checked, with dimensions and units; docs/guide/history.md says what each is.
-Attributes hold the case, the settings, versions and warnings as JSON text.
+those that are checked, with dimensions and units; docs/guide/history.md says what each is. Attributes are JSON text.
 """
 
 from __future__ import annotations
@@ -29,8 +28,7 @@ if TYPE_CHECKING:
 
 COORDINATES = ("time", "x", "contact_x")
 FORMAT = "bent-beam-impact history 2"
-REFLECTED = "waves may run to the ends of the beam"
-"""How a warning begins of a run that a theory of an endless beam does not cover to its end."""
+REFLECTED = "waves may run to the ends of the beam"  # so begins what a run says that no endless beam covers to its end
 
 
 class Variable(NamedTuple):
@@ -209,9 +207,14 @@ class ImpactHistory:
         return 2.0 / self.sides * float(np.ptp(self.positions(0)))
 
     @property
+    def is_arc(self) -> bool:
+        """Whether the beam lies along an arc, longer than its places along x say."""
+        return (self.settings.get("geometry") or {}).get("kind") == "TrueGeometry"
+
+    @property
     def is_whole(self) -> bool:
         """Whether all of the beam is modelled, of an arc by its chords."""
-        rise = np.diff(self.array("gap", 0)) * ((self.settings.get("geometry") or {}).get("kind") == "TrueGeometry")
+        rise = np.diff(self.array("gap", 0)) * self.is_arc
         return 2.0 / self.sides * float(np.hypot(np.diff(self.positions(0)), rise).sum()) >= 0.99 * self.impact.length
 
     def impulse_at(self, time: Any) -> Any:
@@ -226,8 +229,7 @@ class ImpactHistory:
 
     @property
     def moment(self) -> Array:
-        """Largest bending moment, N m, shape (times,): of all steps since the saved instant before where the path knows
-        it, otherwise at the instant."""
+        """Largest |M|, N m, (times,): of all steps since the saved instant before where known, or at the instant."""
         if "largest_moment" in self:
             return self.array("largest_moment")
         return np.array([np.abs(self.bending_moments(k)[0]).max() for k in range(self.time.size)])
@@ -264,9 +266,8 @@ class ImpactHistory:
     def energy_budget(self, until: float | None = None) -> dict[str, float]:
         """Where the energy went from the first saved instant to ``until``, s (default: the last instant; linear between
         instants), J, and the ``defect`` of the sum."""
-        terms = {name: self.array(name) for name in ENERGIES if name in self}
         end = self.time[-1] if until is None else until
-        budget = {name: float(np.interp(end, self.time, values) - values[0]) for name, values in terms.items()}
+        budget = {n: float(np.interp(end, self.time, self.array(n)) - self.array(n)[0]) for n in ENERGIES if n in self}
         defect = sum(-value if name == "work_of_loads" else value for name, value in budget.items())
         initial = float(self.array("kinetic_energy")[0] + self.array("strain_energy")[0])
         return budget | {"initial_energy": initial, "defect": defect}
@@ -279,15 +280,14 @@ class ImpactHistory:
     @classmethod
     def load(cls, file: str | Path) -> ImpactHistory:
         """Read a history; ``ValueError`` when the file is none, or holds anything that a history does not."""
-        source = Path(file)
-        history = cls.of(read_dataset(source))
+        history = cls.of(read_dataset(Path(file)))
         if history.attrs.get("format") != FORMAT:
-            raise ValueError(f"{source} is not a history of this project")
+            raise ValueError(f"{file} is not a history of this project")
         try:
             check_contents(history)
         except (ValueError, TypeError, KeyError, OverflowError, RecursionError) as error:
             what = f"{error} is missing" if isinstance(error, KeyError) else str(error)
-            raise ValueError(f"{source} is not a good history: {what}") from None
+            raise ValueError(f"{file} is not a good history: {what}") from None
         return history
 
 

@@ -122,7 +122,7 @@ class ExudynModel(Part):
 
     def refuses(self, impact: Impact) -> str | None:
         """Why the model cannot take ``impact`` (``None``: it can)."""
-        return next(self._reasons(impact), None)
+        return next(self._reasons(checked_impact(impact)), None)
 
     def _reasons(self, impact: Impact) -> Iterator[str]:
         if impact.wall_stiffness is not None and self.contact is not None:

@@ -52,7 +52,7 @@ class HermiteFE(Composition):
 
     def refuses(self, impact: Impact) -> str | None:
         """Why this method cannot take ``impact``, naming the field (``None``: it can)."""
-        return refusal(impact, self.contact)
+        return refusal(checked_impact(impact), self.contact)
 
     def simulate(
         self, impact: Impact, *, end_time: float | None = None, save: Save = 200, progress: Progress | None = None

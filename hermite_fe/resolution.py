@@ -130,6 +130,11 @@ def choose(impact: Impact, end_time: float, parts: Composition | None = None) ->
         raise InputError(
             f"contact.{name} has no effect with this integrator, whose rows may always open (got {value!r})"
         )
+    mass = parts.mass or ConsistentMass()
+    if integrator.moves_mass and mass != ConsistentMass():
+        raise InputError(
+            f"hermite.mass has no effect with this integrator, which moves the mass of a node itself (got {mass!r})"
+        )
     end = "free" if parts.domain is None else "following"
     far_field = parts.far_field or (
         GridViscosity(end=end) if integrator.damped else GridViscosity(end=end, viscosity=0.0)
@@ -138,7 +143,7 @@ def choose(impact: Impact, end_time: float, parts: Composition | None = None) ->
         raise InputError(
             f'domain cuts the beam where it goes on: hermite.far_field.end must be "following" (got {far_field.end!r})'
         )
-    return Choice(mesh, snapped(fine, impact.places), integrator, contact, far_field, parts.mass or ConsistentMass())
+    return Choice(mesh, snapped(fine, impact.places), integrator, contact, far_field, mass)
 
 
 def scheme_for(impact: Impact, contact: Contact, theta: float = 1.0) -> Integrator:

@@ -54,7 +54,7 @@ class SelfSimilarFE(Part):
     def refuses(self, impact: Impact) -> str | None:
         """Why this method cannot take ``impact``, naming the field (``None``: it can)."""
         for name, instead in BREAKS.items():
-            if value := getattr(impact, name):
+            if value := getattr(checked_impact(impact), name):
                 why = f"{name} breaks the self-similarity that this path rests on (got {value:.4g})"
                 return f"{why}: {instead}, or take the path hermite or exudyn"
         if impact.relative_curvature == 0.0:

@@ -128,8 +128,11 @@ def contact_parameters(
 
 def _checked(**given: ArrayLike) -> dict[str, FloatArray]:
     """The arguments as arrays. Raises ``ValueError`` for one out of range."""
-    arrays = {name: np.asarray(value, dtype=np.float64) for name, value in given.items()}
-    for name, values in arrays.items():
+    arrays: dict[str, FloatArray] = {}
+    for name, value in given.items():
+        if np.asarray(value).dtype.kind in "bSU":
+            raise ValueError(f"{name} must be a number, or an array of numbers (got {value!r})")
+        arrays[name] = values = np.asarray(value, dtype=np.float64)
         positive = name == "kappa_over_nu"
         good = np.isfinite(values) & (values > (0.0 if positive else -np.inf))
         if not np.all(good):

@@ -20,7 +20,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from bent_beam.as_json import plain
-from bent_beam.impact import Impact
+from bent_beam.impact import Impact, checked_impact
 from bent_beam.loads import unmodelled
 from bent_beam.section import Section
 from theory import damped_point
@@ -182,7 +182,7 @@ def predict(impact: Impact, times: Iterable[float] | float = (), *, section: Sec
 
 def _check(impact: Impact) -> None:
     """Raise ``ValueError`` for what the theory does not cover."""
-    if reason := unmodelled(impact, MODELLED):
+    if reason := unmodelled(checked_impact(impact), MODELLED):
         raise ValueError(reason)
     if not impact.relative_curvature > 0.0:
         raise ValueError(

@@ -163,7 +163,7 @@ def _missing_momentum(history: ImpactHistory) -> list[Array]:
     free end loses its rate of curvature within less than an element: it does so along √(ct)."""
     impact, motion = history.impact, history.impact.free_motion(0.0)
     turned = impact.fourth_derivative or impact.curvature_rate
-    if impact.supported or not _is_whole(history) or (impact.axial_force and turned and _ends_follow(history)):
+    if impact.supported or not _keeps_momentum(history) or (impact.axial_force and turned and _ends_follow(history)):
         return []
     x, reached = history.positions(0), math.sqrt(impact.wave_constant * history.time[-1])
     if impact.curvature_rate and not _ends_follow(history) and x[-1] - x[-2] > reached:
@@ -187,10 +187,10 @@ def _second_moment(history: ImpactHistory, missing: Array) -> float | None:
     impact, time = history.impact, history.time
     bent = impact.fourth_derivative or impact.curvature_rate or impact.natural_curvature is not None
     lossy = history.energy("loss_viscous")[-1] != 0.0 or impact.hysteretic_loss
-    if not _is_whole(history) or lossy or impact.wall_in_part or impact.axial_force:
+    if not _keeps_momentum(history) or lossy or impact.wall_in_part or impact.axial_force:
         return None
     turning = "slope" if impact.shear_stiffness is None else "angle"
-    if (bent and _ends_follow(history)) or _is_arc(history) or turning not in history:
+    if (bent and _ends_follow(history)) or history.is_arc or turning not in history:
         return None
     x, both = history.positions(0), 2.0 / history.sides
     angles = history.array(turning) + impact.curvature * x
@@ -241,15 +241,10 @@ def _beyond_total(history: ImpactHistory, found: float) -> float | None:
     return (found - float(total[-1])) / most if most > 0.0 else None
 
 
-def _is_whole(history: ImpactHistory) -> bool:
+def _keeps_momentum(history: ImpactHistory) -> bool:
     """Whether no momentum leaves but through the wall, and nodes stay where they are."""
     absorbs = history.energy("loss_absorbed")[-1] != 0.0
     return "position" not in history and "velocity" in history and not absorbs
-
-
-def _is_arc(history: ImpactHistory) -> bool:
-    """Whether the beam lies along an arc, longer than its places along x say."""
-    return (history.settings.get("geometry") or {}).get("kind") == "TrueGeometry"
 
 
 def _ends_follow(history: ImpactHistory) -> bool:
@@ -270,7 +265,7 @@ def _integral(x: Array, v: Array, slope: Array | None = None) -> Array:
 def _initial_energy(history: ImpactHistory) -> float | None:
     impact = history.impact
     moving = impact.curvature_rate or impact.rotation or impact.supported  # velocities differ along the beam
-    if moving or "position" in history or history.time[0] > 0.0 or _is_arc(history):
+    if moving or "position" in history or history.time[0] > 0.0 or history.is_arc:
         return None
     whole = 0.5 * impact.mass_per_length * history.modelled_length * impact.velocity**2
     return float(history.array("kinetic_energy")[0]) / whole - 1.0

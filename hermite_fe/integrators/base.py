@@ -28,6 +28,7 @@ class Integrator(Part, ABC):
     holds : whether the scheme supports the hold (:mod:`hermite_fe.contacts`); holds_zone : whether that of the whole
         zone, as in runs that measure what a pressing load changes, is stable.
     rebounds : whether it has an impact law, for restitution. damped : whether it takes damping.
+    moves_mass : whether it lays out masses of its own, so that those of :mod:`hermite_fe.masses` have no effect.
     elastic : whether it is for a wall that gives way (:mod:`hermite_fe.elastic_wall`), and not for a rigid one.
     hysteretic : whether it steps Maxwell branches (:mod:`hermite_fe.maxwell`).
     elements_in_first_front : a chosen first step (:mod:`hermite_fe.resolution`) ends when the front is so many smallest
@@ -40,6 +41,7 @@ class Integrator(Part, ABC):
     holds_zone: ClassVar[bool] = False
     rebounds: ClassVar[bool] = True
     damped: ClassVar[bool] = True
+    moves_mass: ClassVar[bool] = False
     elastic: ClassVar[bool] = False
     hysteretic: ClassVar[bool] = False
     elements_in_first_front: ClassVar[float] = 0.03

@@ -56,6 +56,7 @@ class MasslessBoundary(Integrator):
 
     rebounds: ClassVar[bool] = False
     damped: ClassVar[bool] = False
+    moves_mass: ClassVar[bool] = True
 
     def start(self, problem: Problem, state: State) -> MasslessMemory:
         kind = "hermite.integrator.kind: massless_boundary"

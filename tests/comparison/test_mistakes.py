@@ -7,6 +7,7 @@ from strangers import Plain
 
 import exudyn_models
 import hermite_fe
+import theory
 from bent_beam import Impact, InputError
 from bent_beam.cases import EXAMPLES, load_case
 from bent_beam.meshes import UniformMesh
@@ -46,6 +47,10 @@ class Mute(MoreauJean):
         (lambda: HermiteFE().simulate(TUBE, end_time=0.01), r"impact must be a .*, as load_case\(…\).impact"),
         (lambda: exudyn_models.simulate(3), r"impact must be a bent_beam.Impact, .*\(got 3\)"),
         (lambda: exudyn_models.build(TUBE), "impact must be a bent_beam.Impact"),
+        *(
+            (lambda ask=ask: ask(load_case(TUBE)), r"impact must be a bent_beam.Impact, .*\(got Case")
+            for ask in (*(one().refuses for one in (HermiteFE, SelfSimilarFE, ExudynModel)), theory.predict)
+        ),
         (lambda: method_from_tables("exudyn", {"integrator": {"rho": 0.9}}), "integrator.rho is not a known setting"),
         (lambda: Impact.whole_beam(0.5, shear_ratio=0.3), r"shear_ratio has no effect without .*\(got 0.3\)"),
         (lambda: ExudynModel(mesh=3), r"mesh must be an instance of Mesh \(got 3\)"),

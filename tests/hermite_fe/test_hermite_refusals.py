@@ -13,6 +13,7 @@ from hermite_fe.constraints import ContactLaw
 from hermite_fe.contacts import AlternateContact, MeanContact, MiddleContact, NodeContact
 from hermite_fe.far_fields import GridViscosity, Sponge
 from hermite_fe.integrators import MasslessBoundary, Midpoint, MoreauJean, SignoriniPosition
+from hermite_fe.masses import LumpedMass
 from hermite_fe.run import integrate
 from hermite_fe.system import ContactRows, System
 
@@ -30,10 +31,10 @@ system = partial(System, np.ones((1, 2)), np.ones((1, 2)))
 at_rest = partial(integrate, ball(), np.zeros(1), np.zeros(1))
 
 
-def massless(impact=SHORT, element=0.04, contact=AlternateContact(), viscosity=0.0, end_time=0.1):  # noqa: B008
+def massless(impact=SHORT, element=0.04, contact=AlternateContact(), viscosity=0.0, end_time=0.1, mass=None):  # noqa: B008
     """A run without mass in the contact points, with something that it does not go with."""
     scheme, quiet = MasslessBoundary(time_step=2.5e-4, growth=0.0), GridViscosity(viscosity=viscosity)
-    method = HermiteFE(mesh=UniformMesh(element), integrator=scheme, contact=contact, far_field=quiet)
+    method = HermiteFE(mesh=UniformMesh(element), integrator=scheme, contact=contact, far_field=quiet, mass=mass)
     method.simulate(impact, end_time=end_time)
 
 
@@ -87,6 +88,7 @@ REFUSED = [
     (lambda: massless(contact=MiddleContact()), r'points that are dofs: hermite.contact.kind must be "alternate"'),
     (lambda: massless(contact=AlternateContact(restitution=0.5)), r"restitution must be 0 \(got 0.5\)"),
     (lambda: massless(SHORT.replace(shear_stiffness=50.0)), r"shear_stiffness"),
+    (lambda: massless(mass=LumpedMass(0.1)), r"hermite.mass has no effect .*\(got LumpedMass\(rotary=0.1\)\)"),
     (lambda: massless(element=1e-3, end_time=1e3), r"massless_boundary and mesh ask for .* steps"),
     # a wall that gives way
     (lambda: HermiteFE(integrator=MoreauJean()).simulate(SPRINGS, end_time=1.0), "integrator.kind"),

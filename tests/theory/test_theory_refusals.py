@@ -20,6 +20,7 @@ PIPE = Impact(1.224e6, 29.02, 90.0, 0.002, 2.0)
     ("call", "said"),
     [
         (lambda: contact_parameters(0.0), r"kappa_over_nu must be positive and finite \(got 0.0\)"),
+        (lambda: contact_parameters("0.5"), r"kappa_over_nu must be a number, or an array of numbers \(got '0.5'\)"),
         (lambda: contact_parameters(0.5, alpha=-1e200), r"alpha must not exceed 1e\+100 in size \(got -1e\+200\)"),
         (lambda: contact_parameters(0.5, alpha=np.nan), r"alpha must be finite \(got nan\)"),
         (lambda: second_order(TWO), "one impact"),
