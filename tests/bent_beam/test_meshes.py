@@ -35,6 +35,8 @@ def test_a_square_mesh_gives_a_front_the_same_time_in_each_element_and_a_scale_f
     nodes = SquareMesh(first_element=0.1, zone=2.0).nodes(10.0)
     times = nodes[nodes <= 2.0] ** 2  # a front x = √t passes a node at t = x²
     assert np.allclose(np.diff(times), times[1])
+    sizes = np.diff(SquareMesh(first_element=0.1, zone=2.0, growth=1.25).nodes(5.0))
+    assert np.allclose(sizes[400:] / sizes[399:-1], 1.25, rtol=0.1)  # from the last of the zone on
     nodes = ScaleFreeMesh(element_length=1e-3, growth=1.02).nodes(10.0)
     sizes = np.diff(nodes)
     assert np.allclose(sizes[1:] / sizes[:-1], 1.02)

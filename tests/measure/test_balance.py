@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from histories import history_of
+from histories import history_of, pushed_until
 
 from bent_beam import Impact, ImpactHistory
 from bent_beam.measure.balance import Balance, balance_of
@@ -91,6 +91,12 @@ def test_a_free_end_that_loses_its_rate_of_curvature_within_an_element_is_not_as
         run = history_of(time := np.linspace(0.0, end, 11), [0.0, 0.5, 1.0], impact=WHOLE.replace(curvature_rate=-0.5),
                          velocity=np.ones((11, 3)), total_impulse=0.1 * time)  # fmt: skip
         assert (balance_of(run).momentum is not None) == asked
+
+
+def test_momentum_that_a_layer_absorbs_however_late_is_not_missed() -> None:
+    late = np.where(np.arange(41) < 40, 0.0, 1e-3)
+    assert balance_of(pushed_until(0.5)).momentum == pytest.approx(0.0, abs=1e-12)
+    assert balance_of(pushed_until(0.5, loss_absorbed=late)).momentum is None
 
 
 @pytest.mark.parametrize("moves", [{"curvature_rate": 0.1}, {"rotation": 0.1}, {"left_end": "hinged"}])
