@@ -14,7 +14,7 @@ from bent_beam.hysteresis import branches_of
 from bent_beam.impact import Impact
 from bent_beam.measure.whole_impact import whole_impact
 from bent_beam.meshes import UniformMesh
-from bent_beam.method import simulate_to_separation
+from bent_beam.method import separation_times, simulate_to_separation
 from hermite_fe import HermiteFE
 
 
@@ -88,6 +88,14 @@ def test_a_beam_that_turns_comes_back_with_the_end_that_turns_to_the_wall_faster
         assert cannot_return(impact, x, bow + reach, -up - spin * x, energy + 0.1) == (share > 1.0)
     for tilt, back in ((0.88, False), (0.9, True)):  # a tilted bow of this height is at the wall from √0.8 on
         assert cannot_return(impact, x, bow + 0.2 + tilt * x, -up - spin * x, energy) != back
+
+
+def test_a_beam_is_given_up_in_time_with_how_long_a_soft_wall_pushes() -> None:
+    """Three times the half period π√(m/k) of a bar on springs, at most 100 T*; in T* = 2 s here."""
+    bar = Impact(1.0, 4.0, 2.0, 0.0, 1.0, damping=1e-2)
+    walls = {8.0: None, 3.0 * math.pi / math.sqrt(0.03): 0.03, 100.0: 1e-4}
+    for end, stiffness in walls.items():
+        assert separation_times(bar.replace(wall_stiffness=stiffness))[-1] == pytest.approx(2.0 * end, abs=0.012)
 
 
 def test_a_run_is_over_a_period_of_the_lowest_mode_after_its_last_push() -> None:

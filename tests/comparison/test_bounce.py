@@ -15,7 +15,7 @@ from bent_beam import Impact, ImpactHistory, load_case
 from bent_beam.measure.numbers import Band, Number
 from bent_beam.measure.whole_impact import whole_impact
 from bent_beam.meshes import GradedMesh, NodesMesh, UniformMesh
-from bent_beam.method import LONGEST_OF_WALL, separation_times, simulate_to_separation, time_on_wall
+from bent_beam.method import LONGEST_OF_WALL, simulate_to_separation, time_on_wall
 from comparison.bouncing import bounce, follow_hits, problem
 from comparison.questions import Question
 from comparison.store import RunStore
@@ -260,5 +260,3 @@ def test_a_softer_wall_pushes_for_half_a_period_however_long_and_a_force_that_st
     assert not softer.numbers["peak_force"].measured and not softer.numbers["restitution"].measured
     assert any("no largest force on the wall: it still rises" in warning for warning in softer.warnings)
     assert softer.to_dict()["peak_force_time"] is None
-    ends = [separation_times(impact)[-1] for impact in (bar, soft.impact, softer.impact)]
-    assert ends == pytest.approx([8.0, 3.0 * math.pi / math.sqrt(0.03), 100.0], abs=6e-3), "it is given up then"

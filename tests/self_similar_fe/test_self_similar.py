@@ -93,6 +93,7 @@ def test_impulse_energies_and_front_grow_like_the_root_of_the_time_and_far_ahead
         x, gap = half.positions(k)[-1], half.array("gap", k)[-1]
         assert gap == pytest.approx(0.25 * x**2 - half.time[k], rel=1e-6)
         assert half.array("velocity", k)[[0, -1]] == pytest.approx([0.0, 1.0], abs=1e-6)
+    assert half.array("complementarity_product").max() < 1e-10  # what pushes has no gap
     # the front at an instant, bare: from two centroids of what points gathered that move with it
     read, bent = first_front(half, 0.08)
     assert read == pytest.approx(float(EXACT.lambda0) * 0.08**0.5, rel=2e-3) and bent < 2e-3 * read
