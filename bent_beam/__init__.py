@@ -1,8 +1,8 @@
 """The impact problem, case files, meshes, the record of a run and the protocol of a method, shared by all paths.
 
-Read `impact` first, on `scales` (its units) and `loads`; then `cases`, from files by `tables`, `description` and
-`section`; `free_flight`, what the beam would do without the wall; `history`, the record of a run, by `files`; `method`,
-what a path must offer, and `fields`, how its parts are spelled.
+Read `impact` first, on `scales` (its fields and units) and `loads`; then `cases`, from files by `tables`, `description`
+and `section`; `free_flight`, whether a beam that is off the wall comes back; `history`, the record of a run, by
+`files`; `method`, what a path must offer, and `fields`, how its parts are spelled.
 """
 
 from __future__ import annotations

@@ -35,6 +35,12 @@ def acting(impulse: Array) -> NDArray[np.bool_]:
     return np.abs(np.diff(impulse, axis=0)) > ROUND_OFF * float(np.abs(impulse).max(initial=0.0))
 
 
+def given_by_wall(history: ImpactHistory) -> Array:
+    """Impulses of the wall, N s, (times, 1 + contacts): in all, and of contact points, of which some may pull as hard
+    as others push."""
+    return np.column_stack([history.array("total_impulse"), history.array("impulse")])
+
+
 def bears_free_flight(impact: Impact) -> bool:
     """Whether the beam moves without loads and supports once it is off the wall, and towards no other wall; off a plate
     or a stop that cannot be told."""
@@ -101,7 +107,7 @@ def _period(impact: Impact) -> float:
 def _quiet(history: ImpactHistory) -> float:
     """s from the start of the saved interval of the last push to the end of a run; 0 without one. It is at least what
     :class:`Separation` has counted, which knows the step of that push."""
-    pushed = np.flatnonzero(acting(history.array("total_impulse")))
+    pushed = np.flatnonzero(acting(given_by_wall(history)).any(axis=1))
     return float(history.time[-1] - history.time[pushed[-1]]) if pushed.size else 0.0
 
 

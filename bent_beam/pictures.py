@@ -1,4 +1,4 @@
-"""Force and stress of a run (:class:`bent_beam.ImpactHistory`) over time."""
+"""Force and stress of a run (:meth:`bent_beam.ImpactHistory.plot`); `comparison.figures` draws answers."""
 
 from typing import Any
 

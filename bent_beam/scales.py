@@ -1,5 +1,4 @@
-"""The fields of an impact, its scales and dimensionless groups (docs/theory.md, section 1; thesis 2.2.16,
-2.2.46–48).
+"""The fields of an impact, its scales and dimensionless groups (docs/theory.md, 1; thesis 2.2.16, 2.2.46–48).
 
 l* = √(EI/μ)/V₀,  t* = l*/V₀: the fast layer;     T* = √(μL*⁴/EI): free vibration;     ε = t*/T*
 l_s = √(EI/κ_sGA),  t_s = √(EIμ)/κ_sGA: shear;     g = J κ_sGA/(EI μ): κ_sG/E without added mass
@@ -199,9 +198,10 @@ class Scales(Part):
 
     @property
     def forces(self) -> list[tuple[float, float]]:
-        """Forces at points: place, m from the middle, and force, N towards the wall, of each load with a place."""
-        places = ((getattr(self, name), about.load) for name, about in places_of(type(self)).items() if about.load)
-        return [(place, getattr(self, load)) for place, load in places if getattr(self, load)]
+        """Forces at points: place, m from the middle, and force, N towards the wall, of each load in N with a place."""
+        loads = {name: getattr(self, name) for name, about in loads_of(type(self)).items() if about.unit == "N"}
+        places = ((getattr(self, name), loads.get(about.load)) for name, about in places_of(type(self)).items())
+        return [(place, force) for place, force in places if force]
 
     @property
     def lifts(self) -> bool:

@@ -3,8 +3,8 @@
 I is the second moment of area about the axis of bending, W = I/(h/2) the section modulus, h the height in the plane of
 bending, i = √(I/A) the radius of gyration.
 
-A further kind is a class here. ``new_case.py`` has a line of each kind, the predictor's ``beam.js`` and ``case.js``
-have those that the page knows.
+A further kind is a class here and its line of ``SECTIONS``. ``new_case.py`` has a line of each kind, the predictor's
+``beam.js`` and ``case.js`` have those that the page knows.
 """
 
 import math

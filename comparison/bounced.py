@@ -1,4 +1,5 @@
-"""A whole impact that was found: its numbers in SI, what a reader must know of them, document, text and picture."""
+"""The answer of ``bentbeam bounce``: a whole impact found by :mod:`comparison.bouncing`, its numbers in SI, what a
+reader must know of them, document, text and picture."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace

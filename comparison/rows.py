@@ -1,4 +1,4 @@
-"""What a match asks and what it answers: questions and rows; the rows as a document and as a table."""
+"""The rows of a match: what each asks and answers; the rows as a document and as a table."""
 
 import math
 from collections.abc import Iterable, Sequence

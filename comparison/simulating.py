@@ -1,4 +1,4 @@
-"""What one run did and found, for programs and for readers: the contract of ``bentbeam simulate``."""
+"""The answer of ``bentbeam simulate``: what one run did and found, its document, text and files."""
 
 import math
 from dataclasses import asdict, dataclass, replace

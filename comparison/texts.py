@@ -1,4 +1,5 @@
-"""Answers for a reader, in kN, MPa, ms, with the digits that the error bar carries, of the documents of ``--json``."""
+"""Answers as sentences and tables, from the documents of ``--json``, with the digits that the error bar carries. (How a
+number, a unit or a table is written says :mod:`comparison.readable`.)"""
 
 from collections.abc import Sequence
 from typing import Any

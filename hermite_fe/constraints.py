@@ -25,7 +25,7 @@ WORST = ("smallest_reaction", "complementarity_product")
 
 
 class ContactLaw(NamedTuple):
-    """What constraints do that close: how they rebound, and how hard they may pull. (A penalty is none: it pushes.)
+    """What constraints do that close: how they rebound, and how hard they may pull. A penalty has none.
 
     restitution : e. hold, hold_until : what is held (:mod:`hermite_fe.contacts`); nothing from ``hold_ends``, s, on.
     strength : (rows,), N, the pull at which a constraint that has closed opens; one number is that of all.

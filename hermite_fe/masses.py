@@ -1,4 +1,4 @@
-"""What every mass matrix shares: M of a Hermite beam in lower banded form, from element matrices.
+"""Mass matrices, consistent and lumped: M of a Hermite beam in lower banded form, from element matrices.
 
 The translational part of an element's mass is the same for all of them: a uniform field of velocity v carries
 ½μlv² per element (patch test). They differ in what the rotations carry.

@@ -115,6 +115,7 @@ def simulate(
             step=run.steps,
             advice="a smaller hermite.integrator.time_step or growth"
             + (", more damping at grid scale (hermite.far_field.viscosity)" if choice.integrator.damped else "")
+            + (", more hermite.integrator.contact_rounds" if hasattr(choice.integrator, "contact_rounds") else "")
             + ("" if impact.wall_stiffness else ', or hermite.integrator.kind = "moreau_jean"'),
             history=history,
         )

@@ -20,15 +20,14 @@ from typing import Any
 
 import numpy as np
 
-from bent_beam.free_flight import LOWEST_PERIOD, acting, has_left, may_return
+from bent_beam.free_flight import LOWEST_PERIOD, acting, given_by_wall, has_left, may_return
 from bent_beam.history import Array, ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.measure.moments import element_at
 from bent_beam.measure.reduction import WALLS, begins_between, moment_left_out, peak_moment, rise_between, wall_peaks
 
 SHARES = ("translation", "vibration", "dissipated")  # of the energy
-WINDOW = 0.01
-"""In which impulses are added up, T*: a rigid wall has no largest force."""
+WINDOW = 0.01  # T*, in which impulses are added up: a rigid wall has no largest force
 SHORTEST_SEPARATION = 2e-3
 """Shortest time without a push that counts as a separation, T*: four saved instants of a run to separation."""
 
@@ -100,7 +99,7 @@ class WholeImpact:
 def pushes(time: Array, impulse: Array, shortest: float) -> list[tuple[int, int]]:
     """Saved instants at which contacts begin and end, separations shorter than ``shortest`` (s) ignored; a pull is
     contact, too."""
-    pushed = np.flatnonzero(acting(impulse))
+    pushed = np.flatnonzero(acting(impulse.reshape(time.size, -1)).any(axis=1))
     if pushed.size == 0:
         return []
     off = time[pushed[1:]] - time[pushed[:-1] + 1]
@@ -120,7 +119,7 @@ def whole_impact(history: ImpactHistory) -> WholeImpact:
     _check_whole(history)
     impact, time = history.impact, history.time
     total, unit = history.array("total_impulse"), impact.slow_time_scale
-    contacts = pushes(time, total, SHORTEST_SEPARATION * unit)
+    contacts = pushes(time, given_by_wall(history), SHORTEST_SEPARATION * unit)
     if not contacts:
         raise ValueError("the run ends before the wall was touched")
     mass, speed = impact.mass_per_length * impact.length, impact.velocity
@@ -280,7 +279,8 @@ def hits(history: ImpactHistory) -> list[Hit]:
     impact, time = history.impact, history.time
     copies = 2.0 / history.sides
     rows = {wall: copies * history.array(name) for wall, name in WALLS.items() if name in history}
-    parts = [(i, k, wall) for wall, given in rows.items() for i, k in pushes(time, given.sum(axis=1), 0.0)]
+    given = {wall: np.column_stack([of_points.sum(axis=1), of_points]) for wall, of_points in rows.items()}
+    parts = [(i, k, wall) for wall, of_wall in given.items() for i, k in pushes(time, of_wall, 0.0)]
     work = history.energy("work_of_loads")
     energy = history.array("kinetic_energy") + history.array("strain_energy") - work + history.energy("contact_energy")
     groups = _grouped(sorted(parts), impact, time)

@@ -1,6 +1,7 @@
 """Whether a beam that has left the wall can come back to it, and when a run is over."""
 
 import math
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -12,7 +13,7 @@ from bent_beam import ImpactHistory
 from bent_beam.free_flight import LOWEST_PERIOD, Separation, cannot_return, has_left, may_return
 from bent_beam.hysteresis import branches_of
 from bent_beam.impact import Impact
-from bent_beam.measure.whole_impact import whole_impact
+from bent_beam.measure.whole_impact import hits, whole_impact
 from bent_beam.meshes import UniformMesh
 from bent_beam.method import separation_times, simulate_to_separation
 from hermite_fe import HermiteFE
@@ -107,3 +108,15 @@ def test_a_run_is_over_a_period_of_the_lowest_mode_after_its_last_push() -> None
     assert not over(6.0 + 0.99 * LOWEST_PERIOD, 1.0, lambda: gone)
     assert over(6.0 + 1.01 * LOWEST_PERIOD, 1.0, lambda: gone)
     assert not over(8.0, 1.0, lambda: gone, closed=True)
+
+
+def test_a_beam_that_is_glued_to_its_wall_has_not_left_though_pulls_and_pushes_balance() -> None:
+    """Nothing of the whole is given from 0.5 T* on, as of a wall that holds a beam by points that have closed."""
+    free = pushed_until(0.5)
+    late = np.outer(np.maximum(free.time - 0.5, 0.0), [0.0, 0.2, -0.2, 0.0, 0.0])
+    still, pushed = 0.0 * free.array("gap"), free.array("impulse") + late
+    held = {n: free.variables[n]._replace(values=v) for n, v in {"gap": still, "impulse": pushed}.items()}
+    glued = replace(free, variables={**free.variables, **held})
+    assert has_left(free) and not has_left(glued)
+    assert [(hit.end, hit.over) for hit in hits(glued)] == [(pytest.approx(1.975), False)]
+    assert whole_impact(glued).last_contact == pytest.approx(1.975) and whole_impact(glued).restitution is None
