@@ -1,6 +1,8 @@
 """The impact problem: its groups, scales and validation."""
 
 import math
+from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 import pytest
@@ -9,7 +11,7 @@ from bent_beam import Impact
 from bent_beam.checks import affordable
 from bent_beam.errors import SimulationError
 from bent_beam.fields import Quantity, declared
-from bent_beam.loads import loads_of, unmodelled
+from bent_beam.loads import Load, Place, loads_of, unmodelled
 from bent_beam.method import time_on_wall
 from bent_beam.tables import TABLES
 
@@ -148,3 +150,15 @@ def test_a_straight_bar_is_on_its_wall_for_half_a_period_and_a_bow_as_long_as_he
         depth, time = depth + step * velocity, time + step
     assert time_on_wall(bow) == pytest.approx(time, rel=2e-3)
     assert time_on_wall(bow.replace(wall_stiffness=None)) == 0.0
+
+
+@dataclass(frozen=True)
+class Turned(Impact):
+    couple: Annotated[float, Load("N m", "a couple")] = 0.0
+    push: Annotated[float, Load("N", "a force")] = 0.0
+    at: Annotated[float, Place("m", "where the couple acts", load="couple")] = 0.0
+    push_at: Annotated[float, Place("m", "where the force acts", load="push")] = 0.0
+
+
+def test_a_load_at_a_place_is_a_force_if_it_is_in_newtons() -> None:
+    assert Turned(1.0, 1.0, 2.0, 0.5, 1.0, couple=3.0, push=5.0, at=0.1, push_at=0.2).forces == [(0.2, 5.0)]
