@@ -28,6 +28,7 @@ from bent_beam.fields import declared, describe, part_or_auto
 from bent_beam.free_flight import is_over
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
+from bent_beam.modes import lowest_mode
 
 GROUP = "bentbeam.methods"
 Save = int | Sequence[float] | NDArray[np.float64]
@@ -140,6 +141,7 @@ def simulated(run: Callable[..., ImpactHistory], impact: Impact, **how: Any) -> 
 LONGEST, LONGEST_OF_WALL = 8.0, 100.0  # T*: a beam still on its wall is given up then; on a soft one then at the latest
 ON_WALL = 3.0  # times `time_on_wall`: given up then on a soft wall. A load that presses nearly doubles the time on it
 SAVED_LATE = 200  # instants a T* after LONGEST, while a soft wall pushes on
+FARTHEST = 20.0  # T*: a longer flight to the wall is not waited for
 
 
 def time_on_wall(impact: Impact) -> float:
@@ -156,10 +158,18 @@ def time_on_wall(impact: Impact) -> float:
     return max(straight, 2.94 * depth / impact.velocity)
 
 
+def flight_to_wall(impact: Impact) -> float:
+    """How long a beam without loads flies, or swings, over a clearance or up to a wall beside its apex, s."""
+    place = min(max(impact.first_touch, impact.wall_span[0]), impact.wall_span[1])
+    distance = impact.wall_clearance + 0.5 * impact.relative_curvature * (place - impact.first_touch) ** 2
+    speed = impact.velocity * float(lowest_mode(impact, np.array(place))[0]) + impact.rotation * place
+    return distance / speed if speed > 0.0 else 0.0
+
+
 def separation_times(impact: Impact, longest: float | None = None, save: int = 2000) -> NDArray[np.float64]:
     """Saved instants, s, of a run until separation: ``save`` to a T*, evenly, up to ``longest``, s. By default that is
     8 T*, and before a soft wall :data:`ON_WALL` times :func:`time_on_wall`, but 100 T* at most, late instants being
-    fewer.
+    fewer; each after :func:`flight_to_wall`, of 20 T* at most.
 
     Raises ``ValueError`` between two walls, or where supports bring the beam back: no separation is then the last.
     """
@@ -174,9 +184,10 @@ def separation_times(impact: Impact, longest: float | None = None, save: int = 2
             "time (bentbeam simulate), which lists the hits"
         )
     unit, save = impact.slow_time_scale, whole("save", save, 1)
-    end = LONGEST * unit if longest is None else impact.checked_end_time(longest)
+    flight = min(flight_to_wall(impact), FARTHEST * unit)
+    end = LONGEST * unit + flight if longest is None else impact.checked_end_time(longest)
     even = np.linspace(0.0, end, max(8, round(save * end / unit)) + 1)[1:]
-    on_wall = min(ON_WALL * time_on_wall(impact), LONGEST_OF_WALL * unit) if longest is None else 0.0
+    on_wall = min(ON_WALL * time_on_wall(impact), LONGEST_OF_WALL * unit) + flight if longest is None else 0.0
     return np.append(even, np.arange(end, on_wall, unit / min(save, SAVED_LATE))[1:])
 
 

@@ -189,6 +189,7 @@ class Bounce:
         return {
             "model": self.impact.model,
             "velocity": self.impact.velocity,
+            "clearance": self.impact.wall_clearance,
             "kappa_over_nu": self.impact.kappa_over_nu,
             "damping": self.impact.relative_damping,
             "hysteretic_loss": reading["loss"],

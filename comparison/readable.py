@@ -208,8 +208,8 @@ def write_answer(
     return [file, *style.save(found.plot(), out, name)]
 
 
-def hits_table(rows: Sequence[Mapping[str, Any]], names: Sequence[str]) -> str:
-    """Hits by their fields ``names``, a line each."""
+def hits_table(rows: Sequence[Mapping[str, Any]], names: Sequence[str], apart: float | None = None) -> str:
+    """Hits by their fields ``names``, a line each. apart : of saved instants, s, at most; ``None``: it is little."""
     cells = [[row[name] if isinstance(row[name], str) else shown(row[name]) for name in names] for row in rows]
     head = ["hit", *(HIT[name] for name in names)]
     table = text_table(head, [[str(number), *line] for number, line in enumerate(cells, 1)])
@@ -217,8 +217,9 @@ def hits_table(rows: Sequence[Mapping[str, Any]], names: Sequence[str]) -> str:
     both = "\nWhere two overlap, velocities, energies and moments are those of both together." * behind
     late = "\nThe run ends less than a period of the first mode after its last push: the last hit may not be over."
     cut = "" if rows[-1].get("over", True) else late
+    far = "" if apart is None else f", up to {milliseconds(apart)} apart (--save N: closer),"
     return (
-        f"{table}\nHits are read from the saved instants of one run and have no error bars. Of all but the first, the "
-        "second digit\nis uncertain. Velocities are those of the centre of mass. A moment is the largest until the "
-        f"next hit.{both}{cut}"
+        f"{table}\nHits are read from the saved instants of one run{far} and have no error bars. Of all but the\n"
+        "first, the second digit is uncertain. Velocities are those of the centre of mass. A moment is the largest "
+        f"until\nthe next hit.{both}{cut}"
     )

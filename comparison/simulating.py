@@ -64,6 +64,7 @@ class Simulated:
             "seconds": history.seconds,
             "time": end,
             "clearance": impact.wall_clearance,
+            "saved_apart": float(np.diff(history.time).max(initial=0.0)),
             "begins": self._begins(),
             "half_contact_length": self._beside("half_contact_length", row.half_contact_length if row else None),
             "total_impulse": self._beside("impulse", row.impulse if row else None),
@@ -124,8 +125,9 @@ class Simulated:
         """Of a beam that has not touched its wall."""
         if np.any(self.history.array("total_impulse")):
             return []
-        away = self.history.impact.wall_clearance
-        return [f"the beam has not reached its wall, {away:g} m away" if away else "the beam has not touched the wall"]
+        if away := self.history.impact.wall_clearance:
+            return [f"the beam has not reached its wall, {away:g} m away from its rest position"]
+        return ["the beam has not touched the wall"]
 
     def _reflected(self, infinite: Prediction | None, end: float) -> list[str]:
         """From when on waves are back from the ends, where that ends the theory and the run does not say so."""

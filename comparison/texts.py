@@ -1,5 +1,4 @@
-"""Answers as sentences and tables, from the documents of ``--json``, with the digits that the error bar carries. (How a
-number, a unit or a table is written says :mod:`comparison.readable`.)"""
+"""Answers as sentences and tables, of the documents of ``--json``; :mod:`comparison.readable` writes their numbers."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -20,7 +19,7 @@ from comparison.readable import (
     text_table,
     unit_for,
     validity_text,
-)  # fmt: skip
+)
 from comparison.whole_numbers import BETWEEN_WALLS, WHOLE
 
 COLUMNS = {
@@ -119,15 +118,14 @@ def _largest(document: dict[str, Any]) -> list[str]:
     last, whole = max(document["times"], key=lambda row: row["time"]), document["whole_impact"]
     simulated = whole or last.get("simulation", {})
     name, title, unit = largest_of(document["peak_stress"] or simulated.get("peak_stress"))
-    known = document[name]
-    scale, unit = unit_for(unit, [known or simulated.get(name, {}).get("value")])
+    scale, unit = unit_for(unit, [(known := document[name]) or simulated.get(name, {}).get("value")])
     lines = [f"Largest {title}, {unit}{'; that of the whole impact decides' * (whole is not None)}:"]
     if document["valid_until"]:
         until = f"until {milliseconds(document['valid_until'])}, when {LIMITS[document['limited_by']]}"
         lines.append(f"  {until} (theory): " + ("not known" if known is None else f"{known * scale:.4g}"))
     if last.get("simulation", {}).get(name):
-        until, found = milliseconds(last["time"]), _scaled(last["simulation"][name], scale)
-        lines.append(f"  until {until} (simulation): {found}")
+        found = _scaled(last["simulation"][name], scale)
+        lines.append(f"  until {milliseconds(last['time'])} (simulation): {found}")
     if whole is None:
         lines.append(f"  of the whole impact: not known here ({document['no_whole_impact']}); it may be larger")
     else:
@@ -168,8 +166,9 @@ def _hardest(found: dict[str, Any]) -> str:
         return "The largest force is not known: it may still rise."
     if found["peak_force_time"] is None:
         return f"A rigid wall has no largest force; its largest impulse begins at {milliseconds(found['push_time'])}."
-    when, where = milliseconds(found["peak_force_time"]), found["peak_force_place"]
-    return f"The largest force acts at about {when}, on average about {where:.2g} m from the middle."
+    place = found["peak_force_place"]
+    where = "" if place is None else f", on average about {place:.2g} m from the middle"
+    return f"The largest force acts at about {milliseconds(found['peak_force_time'])}{where}."
 
 
 def wall_lines(document: dict[str, Any]) -> list[str]:
@@ -214,7 +213,7 @@ def bounce_text(found: dict[str, Any], *, verbose: bool = False) -> str:
     lines = [
         text_table(["", "value", "", "beam's units"][:columns], [row[:columns] for row in rows]),
         "",
-        beam_line(found["model"], found["velocity"]),
+        beam_line(found["model"], found["velocity"], found["clearance"]),
         *(LEFT if left else STAYS),
         f"those from 0 to {1e3 * found['span'][1]:.4g} ms{ends}.",
         _hardest(found),
@@ -268,8 +267,8 @@ def run_text(found: dict[str, Any], verbose: bool = False) -> str:
         number = Number(found[f"peak_{name}"], found[f"peak_{name}_error"])
         lines += [[title, *in_unit(number, unit), ""]] * number.measured
     if found["restitution"]["value"] is not None:
-        last = number_from(found["last_contact"]).scaled(1e3)
-        lines += [_compared("coefficient of restitution", found["restitution"]), ["last contact", str(last), "ms", ""]]
+        lines.append(_compared("coefficient of restitution", found["restitution"]))
+        lines.append(["last contact", _scaled(found["last_contact"], 1e3), "ms", ""])
     lines.append(["lost to steps and mesh", f"{100.0 * found['numerical_loss']:.2g}", "% of the energy", ""])
     text = [
         f"{found['path']}, {1e3 * found['time']:.4g} ms after {found['begins']} ({found['seconds']:.2g} s for one run)",
@@ -278,13 +277,14 @@ def run_text(found: dict[str, Any], verbose: bool = False) -> str:
         "",
         beam_line(found["model"], found["velocity"], found["clearance"]),
         "± is the error bar by other runs of the same beam; theory: the closed form where it holds to 2 %. Moment and",
-        "stress are the largest of all steps until then; a longer run may show larger ones.",
+        "stress are the largest of all steps until then; a longer run may show larger ones. The half contact length is",
+        "read from the pushes of a tenth of the time before and after.",
     ]
     if (hold := found["hold"]) and verbose:
         pulled = "" if hold["pull"] is None else f" and pulled at most {hold['pull']:.2g} of the largest push"
         text.append(f"held: contact could pull until {hold['until']:.3g} s{pulled}; where held, the gap is imposed")
     if found["hits"]:
-        text += ["", hits_table(found["hits"], BETWEEN_WALLS)]
+        text += ["", hits_table(found["hits"], BETWEEN_WALLS, found["saved_apart"])]
     return _with_warnings(text, found) + (f"\nhistory: {found['file']}" if found["file"] else "")
 
 

@@ -66,14 +66,15 @@ def _instants(history: ImpactHistory, until: float | None) -> int:
 
 
 def _pushed_at(history: ImpactHistory, time: float) -> tuple[float, str] | tuple[None, None]:
-    """Mean |x|, m, of the pushes between the saved instants around ``time``, and the wall that gives most of them."""
-    if history.time.size < 2:
-        return None, None
-    k = min(max(int(np.searchsorted(history.time, time)), 1), history.time.size - 1)
-    gains = {w: np.diff(history.array(n, slice(k - 1, k + 1)), axis=0)[0] for w, n in WALLS.items() if n in history}
-    wall, gain = max(gains.items(), key=lambda one: float(one[1].sum()))
-    given = float(gain.sum())
-    return (float(gain @ np.abs(history.contact_positions(k))) / given, wall) if given > 0.0 else (None, None)
+    """Mean |x|, m, of the pushes between the saved instants around ``time``, and the wall that gives most of them. A
+    damper may push hardest as the beam lands, at the end of a saved interval: then of the next."""
+    first = min(max(int(np.searchsorted(history.time, time)), 1), max(history.time.size - 1, 1))
+    for k in range(first, min(first + 2, history.time.size)):
+        gains = {w: np.diff(history.array(n, slice(k - 1, k + 1)), axis=0)[0] for w, n in WALLS.items() if n in history}
+        wall, gain = max(gains.items(), key=lambda one: float(one[1].sum()))
+        if (given := float(gain.sum())) > 0.0:
+            return float(gain @ np.abs(history.contact_positions(k))) / given, wall
+    return None, None
 
 
 def _sharpness(history: ImpactHistory, when: float) -> float:

@@ -97,6 +97,12 @@ def test_a_beam_is_given_up_in_time_with_how_long_a_soft_wall_pushes() -> None:
     walls = {8.0: None, 3.0 * math.pi / math.sqrt(0.03): 0.03, 100.0: 1e-4}
     for end, stiffness in walls.items():
         assert separation_times(bar.replace(wall_stiffness=stiffness))[-1] == pytest.approx(2.0 * end, abs=0.012)
+    stop = bar.replace(wall_from=0.5, wall_to=0.5)
+    swinging = stop.replace(right_end="hinged", wall_clearance=3.0)  # half as fast there as in the middle
+    rocking = stop.replace(curvature=2.0, first_touch=0.1, rotation=0.6, wall_from=-0.1, wall_to=-0.1)
+    for beam, flight in ((stop, 0.0), (swinging, 6.0), (stop.replace(curvature=2.0), 0.25), (rocking, 0.04 / 0.94)):
+        assert separation_times(beam)[-1] == pytest.approx(16.0 + flight, rel=1e-12)
+    assert separation_times(swinging.replace(wall_clearance=300.0))[-1] == pytest.approx(16.0 + 40.0, rel=1e-12)
 
 
 def test_a_run_is_over_a_period_of_the_lowest_mode_after_its_last_push() -> None:

@@ -196,6 +196,8 @@ def test_a_force_that_is_largest_at_the_beginning_or_the_end_of_a_run_acts_where
     peaks = dict.fromkeys(("peak_force", "peak_penetration", "peak_pressure"), time)
     peaks["peak_force_time"] = np.full(time.size, largest_at)
     assert wall_peaks(history_of(time, x, impulse=given, total_impulse=given.sum(axis=1), **peaks)).place == 1.0
+    landed, peaks["peak_force_time"] = np.outer(np.maximum(time - 0.5, 0.0), [0.0, 1.0]), np.full(time.size, 0.5)
+    assert wall_peaks(history_of(time, x, impulse=landed, **peaks)).place == 1.0  # of a damper, as the beam lands
 
 
 @pytest.mark.parametrize(("power", "least", "above"), [(1, 0.5, 0.75 * 0.005), (2, 1.0 - 1e-6, 0.005**2)])
