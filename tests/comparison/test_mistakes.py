@@ -90,21 +90,6 @@ def test_a_mistake_of_extension_is_one_sentence_that_says_what_to_write(made, sa
     assert "\n" not in str(told.value)
 
 
-@pytest.mark.parametrize("until", [None, 5e-5, 1e-3])
-@pytest.mark.parametrize(("path", "kind"), [("hermite", "moreau_jean"), ("exudyn", "generalized_alpha")])
-def test_elements_and_steps_of_which_no_coarser_run_tells_the_error_are_refused_at_any_time(path, kind, until) -> None:
-    """Two elements of half a beam would be their own companion, and so would one step."""
-    steps = [f"{path}.integrator.kind={kind}", f"{path}.integrator.time_step=1.0"]
-    case = load_case(TUBE, ["beam.model=euler_bernoulli", *steps])
-    elements = load_case(TUBE, ["mesh.kind=uniform", "mesh.element_length=0.5"])
-    for made, said in (
-        (case, f"{path}.integrator.time_step must be at most"),
-        (elements, "mesh has 3 elements in a half"),
-    ):
-        with pytest.raises(InputError, match=said):
-            simulate_case(made, path, until=until)
-
-
 def test_a_match_on_too_few_elements_is_refused() -> None:
     (row,) = match(HermiteFE(mesh=UniformMesh(250.0)), kappa_over_nu=0.5)
     assert row.refused and "mesh has 2 elements in a half beam of 500 m, and 4 are the fewest" in row.reason
