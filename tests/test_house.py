@@ -18,9 +18,8 @@ PACKAGES = {room.partition(".")[0] for room in FLOOR}
 NAMES_OF_PATHS = {"hermite", "self_similar", "exudyn"}
 METHODS = {"HermiteFE", "SelfSimilarFE", "ExudynModel"}
 ADAPTERS = "bent_beam_programs.open_benchmark.adapters"  # each runs in an environment of its own
-LEAN = {
-    *"numpy scipy xarray pandas matplotlib numba exudyn h5py h5netcdf jinja2 dask multiprocessing asyncio PIL".split()
-}
+LEAN = set("numpy scipy xarray pandas matplotlib numba exudyn h5py h5netcdf jinja2 dask".split())
+LEAN |= {"multiprocessing", "asyncio", "PIL"}
 
 
 @cache

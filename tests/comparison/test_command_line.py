@@ -92,10 +92,7 @@ def test_a_match_whose_rows_are_all_refused_is_bad_input_and_still_a_document(ca
         ([*SWEEP, *VELOCITIES, "--vary", "impact.drop_height=1,2"], "another --vary says the same"),
         ([*SWEEP, "--vary", "velocity=1,2"], "TABLE.KEY"),
         ([*SWEEP, "--vary", "impact.velocity=1,,2"], "TABLE.KEY"),
-        (
-            [*SWEEP, "--vary", "impact.velocity=1:2"],
-            "takes A:B:N, two numbers and how many values, from 2 on, or A,B,C",
-        ),
+        ([*SWEEP, "--vary", "impact.velocity=1:2"], "A:B:N, two numbers and how many values, from 2 on, or A,B,C"),
         ([*SWEEP, *VELOCITIES, *VELOCITIES], "--vary impact.velocity is given twice"),
         ([*SWEEP, "--vary", "impact.velocity=1:2:1"], "from 2 on"),
         ([*SWEEP, "--vary", "impact.velocity=0:1:20000"], "from 2 on"),

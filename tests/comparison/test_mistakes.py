@@ -70,14 +70,8 @@ class Mute(MoreauJean):
         (lambda: sweep({}, {"impact.velocity": 3.0}), r"impact.velocity takes its values in a list, .*\(got 3.0\)"),
         (lambda: sweep(TUBE, {"impact.velocity": [1.0, float("nan")]}), "vary: impact.velocity must be"),
         (lambda: sweep(TUBE, {}), "nothing is varied"),
-        (
-            lambda: sweep(load_case(TUBE), {"impact.velocity": [1.0]}),
-            "case must be a case file or its tables, .*got Case",
-        ),
-        (
-            lambda: sweep(TUBE, {"impact.velocity": [1.0]}, HermiteFE()),
-            "path must be the name of a path; .*got HermiteFE",
-        ),
+        (lambda: sweep(load_case(TUBE), {"impact.velocity": [1.0]}), "case must be a case file or .*got Case"),
+        (lambda: sweep(TUBE, {"impact.velocity": [1.0]}, HermiteFE()), "path must be the name .*got HermiteFE"),
         (lambda: sweep(TUBE, {"impact.velocity": []}), r"vary: impact.velocity has no values \(got \[\]\)"),
         (lambda: predict(TUBE, [0.001, 0.002]), r"times must be a finite number each: predict\(case, 0.001, 0.002\)"),
         (lambda: methods_from_file(TUBE), "tube.toml is a case file"),
@@ -97,9 +91,7 @@ def test_a_match_on_too_few_elements_is_refused() -> None:
 
 def test_ratios_come_in_any_iterable_and_loads_as_arrays() -> None:
     for ratios in (0.5, np.float64(0.5), np.array(0.5), {0.5}, (one for one in (0.5,)), np.array([0.5])):
-        (row,) = match(
-            HermiteFE(mesh=UniformMesh(250.0)), kappa_over_nu=ratios, first_order=[np.array([4.0, 0.0, 0.0])]
-        )
+        (row,) = match(HermiteFE(mesh=UniformMesh(250.0)), kappa_over_nu=ratios, first_order=[np.array([4.0, 0, 0])])
         assert (row.kappa_over_nu, row.alpha) == (0.5, 4.0)
     for loads in (["400"], [(4.0, 0.0)]):
         with pytest.raises(InputError, match="first_order takes alpha, psi, chi"):

@@ -217,9 +217,8 @@ def test_what_is_chosen_for_an_impact_runs_it(wall):
 
 def test_the_bow_s_own_slope_far_from_the_contact_does_not_scale_deflections_down_and_what_a_load_bends_does():
     """The bow is part of the linear beam's natural shape; only its slope over what moves counts."""
-    scales = {
-        name: Scaling(HALF.replace(**load), 0.1) for name, load in (("bare", {}), ("bent", {"curvature_rate": 0.5}))
-    }
+    loads = {"bare": {}, "bent": {"curvature_rate": 0.5}}
+    scales = {name: Scaling(HALF.replace(**load), 0.1) for name, load in loads.items()}
     near, far = ({name: LinearLimit().amplitude_of(s, reach) for name, s in scales.items()} for reach in (40.0, 400.0))
     assert far["bare"] == near["bare"] and far["bent"] < 0.2 * near["bent"]
 

@@ -15,6 +15,7 @@ from bent_beam.meshes import UniformMesh
 from exudyn_models import ExudynModel, simulate
 from hermite_fe import HermiteFE
 
+verify = pytest.mark.verify
 HINGED = {"left_end": "hinged", "right_end": "hinged"}
 
 
@@ -63,9 +64,7 @@ WITHIN = {"peak_force": 5e-4, "peak_force_time": 8e-3, "peak_penetration": 5e-4,
           "total_impulse": 2e-4, "loss_wall": 5e-3, "contact_energy": 5e-3}  # fmt: skip
 
 
-@pytest.mark.parametrize(
-    ("seed", "refine"), [(44, 0.7), *(pytest.param(seed, 1.0, marks=pytest.mark.verify) for seed in (45, 46))]
-)
+@pytest.mark.parametrize(("seed", "refine"), [(44, 0.7), *(pytest.param(n, 1.0, marks=verify) for n in (45, 46))])
 def test_both_paths_agree_on_every_number_of_a_damped_wall(seed: int, refine: float) -> None:
     """The pressure is that of spring and dashpot. A penalty of the elements' own would grow with 1/Δx, and dashpots of
     whole elements would push 2.6 % more."""
@@ -121,7 +120,7 @@ def test_a_beam_that_leaves_a_soft_wall_under_a_load_has_its_restitution() -> No
     assert found[0].last_contact == pytest.approx(found[1].last_contact, abs=5e-3)
 
 
-@pytest.mark.verify
+@verify
 def test_the_edge_of_a_damped_plate_lets_go_when_spring_and_dashpot_do() -> None:
     """Literal values of an explicit code with 600 nodes: the last contact 12.567 s, 10.151 % dissipated."""
     impact = Impact(

@@ -175,10 +175,8 @@ def test_a_force_of_the_wall_that_passes_its_earlier_largest_between_saved_insta
     impact = Impact.whole_beam(2.0).replace(wall_stiffness=100.0)
     x, pushed = np.linspace(0.0, 1.0, 4), np.outer(given, [0.5, 0.0, 0.0, 0.0])
     run = history_of(time, x, impact=impact, impulse=pushed, total_impulse=given, **told)
-    found, most = (
-        [instant(run, at) for at in (0.0, 0.5, 1.5, 5.0, 5.25, 5.75, 6.0)],
-        [0.0, 0.3, 0.85, 1.1, 1.1, 1.2, 1.3],
-    )
+    found = [instant(run, at) for at in (0.0, 0.5, 1.5, 5.0, 5.25, 5.75, 6.0)]
+    most = [0.0, 0.3, 0.85, 1.1, 1.1, 1.2, 1.3]
     assert [one.peak_force for one in found] == [one.peak_pressure for one in found] == pytest.approx(most)
     assert [one.peak_penetration for one in found] == pytest.approx([0.5 * force for force in most])
     assert [one.peak_force_time for one in found] == pytest.approx([0.0, 0.5, 1.5, 2.0, 2.0, 5.75, 6.0])
@@ -186,9 +184,7 @@ def test_a_force_of_the_wall_that_passes_its_earlier_largest_between_saved_insta
 
 
 @pytest.mark.parametrize(("largest_at", "begin"), [(0.02, 0.0), (1.0, 0.9)])
-def test_a_force_that_is_largest_at_the_beginning_or_the_end_of_a_run_acts_where_the_wall_pushed_then(
-    largest_at, begin
-) -> None:
+def test_a_force_that_is_largest_when_a_run_begins_or_ends_acts_where_the_wall_pushed_then(largest_at, begin) -> None:
     """At 1 m in one interval alone, otherwise in the middle."""
     time, x = np.linspace(0.0, 1.0, 11), np.array([0.0, 1.0])
     there = np.clip(time - begin, 0.0, 0.1)
@@ -201,9 +197,7 @@ def test_a_force_that_is_largest_at_the_beginning_or_the_end_of_a_run_acts_where
 
 
 @pytest.mark.parametrize(("power", "least", "above"), [(1, 0.5, 0.75 * 0.005), (2, 1.0 - 1e-6, 0.005**2)])
-def test_a_step_at_the_top_of_a_force_stands_above_those_beside_it_by_h_at_a_kink_and_by_h_squared_if_smooth(
-    power, least, above
-):
+def test_a_step_at_the_top_of_a_force_stands_out_by_h_at_a_kink_and_by_h_squared_if_smooth(power, least, above) -> None:
     """The force 1 − |t − t₀|ᵖ + (t − t₀)/3, whose tilt makes no edge, in steps of 0.005, saved at every tenth; the mean
     of the one at a kink is 1 − h/4, of those beside it 1 − h. From saved instants a kink is told to a half only."""
     time, top = np.linspace(0.0, 1.05, 22), 0.525
@@ -274,9 +268,7 @@ def test_three_even_points_within_seven_tenths_of_a_front_tell_the_uniform_react
 def test_a_pressure_that_grows_with_time_is_its_mean_from_a_quarter_of_the_time_to_as_much_beyond() -> None:
     """2t to 0.4: at the time itself, but at the end, where nothing is known of what comes."""
     time, x = np.linspace(0.0, 2.0, 65), np.linspace(0.0, 1.0, 11)
-    impulse = np.outer(time**2, [0.05, 0.1, 0.1, 0.1, 0.05, *np.zeros(6)]) + np.outer(
-        time, 100.0 * (np.arange(11) == 4)
-    )
+    impulse = np.outer(time**2, [0.05, 0.1, 0.1, 0.1, 0.05, *np.zeros(6)]) + np.outer(time, 100.0 * (x == x[4]))
     found = moments(history_of(time, x, impulse=impulse, total_impulse=2.0 * impulse.sum(axis=1))).pressure
     assert found[[16, 32, 64]] == pytest.approx([1.0, 2.0, 2.0 * 1.25], rel=1e-9)
 

@@ -77,9 +77,7 @@ def test_a_largest_moment_is_looked_for_after_an_instant_and_within_the_record()
     assert peak_moment(history, since=2).time == 2.5
     near, moments = moments_around(history, 3.0, 1.0)
     assert near.tolist() == [2.0, 3.0, 4.0] and moments.tolist() == [7.0, 6.0, 5.0]
-    cubic = history_of(
-        time, np.linspace(0.0, 1.0, 5)
-    )  # of a path that tells instants alone, the first is no contact yet
+    cubic = history_of(time, np.linspace(0.0, 1.0, 5))  # of instants alone: the first is no contact yet
     assert moments_around(cubic, 1.0, 1.0)[0].tolist() == [1.0, 2.0]
 
 

@@ -159,9 +159,8 @@ def test_cases_are_read_and_what_the_page_lacks_is_refused_by_name() -> None:
     texts["misspelt"] = texts["tube"].replace("\nlength", "\nlenght")
     texts["nonsense"] = texts["tube"].replace("[run]", "[exudyn]\nrun = true\n[run]")
     found = dict(zip(texts, evaluated(READ, list(texts.values())), strict=True))
-    between = (
-        "beam.ends, wall.from, wall.to are not on this page (bentbeam simulate takes them if they are spelled right)"
-    )
+    of_simulate = "(bentbeam simulate takes them if they are spelled right)"
+    between = f"beam.ends, wall.from, wall.to are not on this page {of_simulate}"
     assert found.pop("tube_between_plates") == between
     misspelt = "beam.lenght is not on this page (bentbeam simulate takes it if it is spelled right)"
     assert found.pop("misspelt") == misspelt

@@ -52,11 +52,8 @@ def patched_waves(ratio: float, loads: tuple[float, ...], last: int = 1) -> tupl
         waves = [np.array([wave(2 * k + 2)(x, m) for m in range(6)]) for k in range(last + 1)]
         i2, i4 = waves[:2]
         free = [even(x, 1, -kappa / 2), even(x, alpha / 2, chi / 2, psi / 24), even(x, n * chi / 6, n * psi / 4)]
-        shapes = [
-            [],
-            [even(x, 1, 0, -one / 12), even(x, 0, 1)],
-            [even(x, 1, 0, -one / 4), even(x, 0, 1, 0, -one / 180)],
-        ]
+        first = [even(x, 1, 0, -one / 12), even(x, 0, 1)]
+        shapes = [[], first, [even(x, 1, 0, -one / 4), even(x, 0, 1, 0, -one / 180)]]
         tension, real, nothing = mp.j * n / 2, np.vectorize(mp.re), np.zeros(4)
         lambdas, forces, b, middle, outside, inside = [x, 0, 0], [], [0, 0, 0], [0, 0], [], []
 
