@@ -84,15 +84,11 @@ def test_a_mistake_of_extension_is_one_sentence_that_says_what_to_write(made, sa
     assert "\n" not in str(told.value)
 
 
-def test_a_match_on_too_few_elements_is_refused() -> None:
-    (row,) = match(HermiteFE(mesh=UniformMesh(250.0)), kappa_over_nu=0.5)
-    assert row.refused and "mesh has 2 elements in a half beam of 500 m, and 4 are the fewest" in row.reason
-
-
-def test_ratios_come_in_any_iterable_and_loads_as_arrays() -> None:
+def test_ratios_come_in_any_iterable_and_loads_as_arrays_and_too_few_elements_are_refused() -> None:
     for ratios in (0.5, np.float64(0.5), np.array(0.5), {0.5}, (one for one in (0.5,)), np.array([0.5])):
         (row,) = match(HermiteFE(mesh=UniformMesh(250.0)), kappa_over_nu=ratios, first_order=[np.array([4.0, 0, 0])])
         assert (row.kappa_over_nu, row.alpha) == (0.5, 4.0)
+    assert row.refused and "mesh has 2 elements in a half beam of 500 m, and 4 are the fewest" in row.reason
     for loads in (["400"], [(4.0, 0.0)]):
         with pytest.raises(InputError, match="first_order takes alpha, psi, chi"):
             match(HermiteFE(), kappa_over_nu=0.5, first_order=loads)
