@@ -176,14 +176,6 @@ def test_a_push_on_one_point_of_a_sheared_beam_spreads_over_less_than_an_element
     assert peak_moment(run)[::4] == (moment, pytest.approx(spread))
 
 
-def test_a_push_in_bursts_counts_as_its_mean_over_a_thousandth_of_t_star_on_either_side() -> None:
-    """T* = 10 s; bursts of 1 ms, as often nothing, of 3.2 N in the mean: 0.008 N m as above."""
-    beam, time, x = SHEARED.replace(mass_per_length=200.0), np.linspace(0.0, 1.0, 1001), np.linspace(0.0, 1.0, 5)
-    bursts, moment = np.cumsum(3.2e-3 * (np.arange(1001) % 2)), np.where(np.arange(1001) == 500, 1.2, 0.1)
-    run = recorded(time, np.outer(bursts, x == 0.0), x=x, impact=beam, moment=moment)
-    assert peak_moment(run).spread == pytest.approx(0.008, rel=0.12)  # 10 or 11 bursts in 21 ms
-
-
 @pytest.mark.parametrize("place", [0.0, 0.1, 0.2])
 def test_a_push_beside_a_point_is_one_of_both_halves(place: float) -> None:
     """A pair stands for the pushes of one half and of its mirror image, wherever the largest moment is."""
