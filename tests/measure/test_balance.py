@@ -127,17 +127,6 @@ def test_a_pull_counts_where_nothing_is_said_to_be_held() -> None:
     assert taken.pull > 0.05 and any("the wall pulls" in line for line in taken.warnings)
 
 
-def test_a_push_is_small_beside_the_largest_one_however_small_that_is() -> None:
-    """Two nodes push to the end, one of them off the wall by a tenth of V₀t, and one more by next to nothing. What was
-    in the wall, off it or pulled in the first half of the run is not looked at."""
-    time, x, unit = np.linspace(0.0, 4.0, 41), np.linspace(0.0, 1.0, 3), 1e-9
-    early = (time < 1.95)[:, None]
-    gap = np.outer(time, [0.0, 0.1, 0.2]) + early * [-0.5, 0.5, 0.0]
-    impulse = unit * np.column_stack([time, time, 1e-9 * time - 0.5 * np.minimum(time, 1.9)])
-    found = balance_of(history_of(time, x, impact=WHOLE, gap=gap, impulse=impulse))
-    assert (found.gap_of_push, found.penetration, found.pull) == (pytest.approx(0.1), 0.0, 0.0)
-
-
 def left(depth: float, *, pull: float = 0.1, behind_until: float = 0.0, again: float = 0.0) -> ImpactHistory:
     """Touches until 2 s, then round-off until 9 s. From 1 s on the node in the middle, which pushes, is in the wall by
     ``depth`` V₀t; from 1.8 to 1.9 s it takes back ``pull`` of its largest push. ``again`` : impulse at 8.5 s."""
