@@ -97,3 +97,9 @@ def test_the_bending_length_of_the_front_needs_three_elements_at_both_times(near
     """It is 1 Λ at the end time, with the front at 2 Λ, and √0.1 of both at a tenth of it."""
     said = stated(places=np.concatenate([np.arange(0.0, 1.0, near), np.arange(1.0, 40.0, far)]), given=False)
     assert len(said) == len(says) and all(text in line for text, line in zip(says, said))
+
+
+def test_waves_of_a_long_front_are_waited_for_farther_out() -> None:
+    """Of its length: ten times as flat a bow lays on √10 as much in the same time."""
+    beyond = [far_field(Scaling(Impact.dimensionless(kappa), 1.0)) - 12.0 for kappa in (0.02, 0.2)]
+    assert beyond[0] / beyond[1] == pytest.approx(np.sqrt(10.0)) and beyond[1] > 20.0

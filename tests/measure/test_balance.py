@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from histories import history_of, pushed_until
+from twins import in_units
 
 from bent_beam import Impact, ImpactHistory
 from bent_beam.measure.balance import Balance, balance_of
@@ -64,7 +65,8 @@ def test_a_falsified_impulse_energy_gap_or_slope_shows_in_proportion() -> None:
 
 
 def test_part_of_a_long_beam_an_expanding_mesh_and_a_beam_under_tension_keep_their_momentum_too() -> None:
-    endless, tense = Impact.dimensionless(0.5, epsilon_alpha=2.0), WHOLE.replace(**TAUT)
+    endless = in_units(Impact.dimensionless(0.5, epsilon_alpha=2.0), {"kg": 3.0, "m": 1.0, "s": 1.0})
+    tense = WHOLE.replace(**TAUT)
     expanding = SelfSimilarFE(mesh=ExpandingMesh(front_resolution=0.05, growth=0.05, step_ratio=0.05, decades=2.0))
     runs = [one.simulate(endless, end_time=0.1) for one in (HermiteFE(domain=6.0), ExudynModel(refine=0.3), expanding)]
     assert max(balance_of(run).momentum for run in runs) < 5e-4
