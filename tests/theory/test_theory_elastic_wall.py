@@ -39,7 +39,7 @@ def test_largest_force_is_that_of_the_beams_modes(ratio, damping, dx, agree):
     found = peak_force(ratio, damping)
     modes = largest_force_by_modes(ratio, damping, 1.1 * found.time, 15.0, dx)
     assert found.value == pytest.approx(modes, rel=agree)
-    assert found.error < 2e-4 * found.value
+    assert 1e-5 * found.value < found.error < 2e-4 * found.value  # some hundred steps are not right to six digits
 
 
 @pytest.mark.parametrize("damping_ratio", [pytest.param(0.0, marks=pytest.mark.verify), 2.0])

@@ -57,7 +57,7 @@ X = np.linspace(0.013, 0.987, 41)
     ("bar", "speed", "stiffness", "times"),
     [
         (ReleasedBar(), 1.0, 1.0, [0.3, 0.8, 1.21, 1.7, 2.4, 2.9, 4.33, 302.1]),
-        (FlyingBar(1.0, 4.0, 1.0, 0.5, 0.2), 2.0, 4.0, [0.1, 0.5, 0.75, 1.02, 1.33, 1.7]),
+        (FlyingBar(1.0, 8.0, 2.0, 0.5, 0.2), 2.0, 8.0, [0.1, 0.5, 0.75, 1.02, 1.33, 1.7]),
     ],
 )
 def test_bars_carry_waves_and_keep_signorini_their_momentum_and_energy(bar, speed, stiffness, times) -> None:
