@@ -166,7 +166,6 @@ def test_segment_contact_loses_what_its_forces_do(friction):
     budget = history.energy_budget()
     assert abs(budget["defect"]) < 1e-6 * sum(value for name, value in budget.items() if name.startswith("loss"))
     assert history.array("total_impulse")[-1] == pytest.approx(IMPULSE, rel=2e-3)  # friction changes nothing
-    assert all("the mesh grows" in warning for warning in history.warnings)  # and every contact state settles
     assert balance_of(history).warnings == []  # its chords open and close by forces of no consequence
 
 
