@@ -103,6 +103,7 @@ def test_a_beam_is_given_up_in_time_with_how_long_a_soft_wall_pushes() -> None:
     rocking = stop.replace(curvature=2.0, first_touch=0.1, rotation=0.6, wall_from=-0.1, wall_to=-0.1)
     for beam, flight in ((stop, 0.0), (swinging, 6.0), (stop.replace(curvature=2.0), 0.25), (rocking, 0.04 / 0.94)):
         assert separation_times(beam)[-1] == pytest.approx(16.0 + flight, rel=1e-12)
+    assert separation_times(stop, 6.0, save=50).size == 150  # in three T*
     assert separation_times(swinging.replace(wall_clearance=300.0))[-1] == pytest.approx(16.0 + 40.0, rel=1e-12)
 
 
